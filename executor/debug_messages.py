@@ -44,7 +44,8 @@ class SetBreakpoints(Struct, forbid_unknown_fields=True):
     """Replaces all breakpoints of the session; they also hold for later runs.
 
     With `on` false none has an effect. Refused with `bad_breakpoint` if one cannot be set in the running
-    tree; all are as they were then.
+    tree; all are as they were then. A program that is loading or ending, or that does not answer, cannot
+    refuse them: what it does not take then, it names in the log.
     """
 
     breakpoints: Annotated[list[Breakpoint], Meta(max_length=500)]

@@ -139,7 +139,7 @@ class ApplicationDebugger:
         return None
 
     def start(self, wanted: messages.SetBreakpoints | None) -> None:
-        """Sets the breakpoints of a run that begins; those that its tree refuses are named and left out."""
+        """Sets breakpoints for which no client waits; those that the tree refuses are named and left out."""
         if wanted is None or self.obey(child_messages.SetBreakpoints(wanted=wanted)) is None:
             return
         good = []

@@ -283,6 +283,13 @@ class Follower:
                 pass
 
     def _obey_control(self, message: Wanted) -> messages.Error | None:
+        """Carries out a command; returns why it is refused, which the log says where no client waits."""
+        error = self._refusal(message)
+        if error is not None and message.request is None:
+            self._channel.send(child_messages.Log("warning", f"{error.message} {error.hint}".strip()))
+        return error
+
+    def _refusal(self, message: Wanted) -> messages.Error | None:
         try:
             self._control.obey(message)
         except RefusedError as refused:

@@ -111,6 +111,7 @@ class ExactApplication(Application):
         )
         exact.loop.moved = self._moved
         exact.loop.rests_after_tick = self._is_snapshot_due
+        exact.loop.watchers.append(self._look_at_tree)  # together with those of the world
         self._exact_graph.join(exact.world, exact.ros)
         self._fingerprints = Fingerprints(exact.world)
         self._keeping.begin()
@@ -156,6 +157,8 @@ class ExactApplication(Application):
             case child_messages.Pause():
                 self._tell_fingerprints()
                 super()._obey(message)
+            case child_messages.BeginRecording(run=run) if self._recorder is not None:
+                self._recorder.begin(run)  # after a reset, the time has gone back already
             case child_messages.KeepSnapshots(is_on=is_on):
                 self._keeping.is_on = is_on
             case child_messages.TakeSnapshot() if self._is_in_tick:
@@ -225,6 +228,11 @@ class ExactApplication(Application):
     def _moved(self, clocks: int) -> None:
         self._pulse.clocks = clocks
         self._pulse.moved()
+
+    def _look_at_tree(self, _: float) -> None:
+        """Sends the recorder what the tree did up to the moment up to which it has the world."""
+        if self._recorder is not None:
+            self._recorder.pump()
 
     def _is_running(self) -> bool:
         return self._runner is not None and self._runner.state is RunnerState.RUNNING

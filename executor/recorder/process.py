@@ -266,6 +266,7 @@ class RecorderProcess:
             source.connection.close()
             return
         self._sources[source.connection.fileno()] = source
+        self._order.belongs(source.connection.fileno(), source.process)
 
     def _take_all(self) -> None:
         for source in list(self._sources.values()):

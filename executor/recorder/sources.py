@@ -48,21 +48,26 @@ def take_source(listener: socket.socket) -> Source | None:
     connection, _ = listener.accept()
     connection.setblocking(False)  # noqa: FBT003 - positional only
     data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
-    _, uid, _ = _CREDENTIALS.unpack(data)
+    process, uid, _ = _CREDENTIALS.unpack(data)
     if uid != os.getuid():
         connection.close()
         return None
-    return Source(connection)
+    return Source(connection, process)
 
 
 class Source:
-    """One connection. `run` is the run to which its messages belong; "" before its first mark.
+    """One connection.
 
-    `is_full` tells that as much came at once as the way holds, so that more may wait behind it.
+    Attributes:
+        connection: its socket.
+        process: the process at its other end; 0 if that is not known.
+        run: the run to which its messages belong; "" before its first mark.
+        is_full: whether as much came at once as the way holds, so that more may wait behind it.
     """
 
-    def __init__(self, connection: socket.socket) -> None:
+    def __init__(self, connection: socket.socket, process: int = 0) -> None:
         self.connection = connection
+        self.process = process
         self.run = ""
         self.is_full = False
         self._data = bytearray()

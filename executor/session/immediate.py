@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from executor.child_messages import Request
     from executor.recorder_messages import ReadSegment
+    from executor.session.child import Child
     from executor.session.events import CommandCame, Kind
     from executor.session.stage import Stage
 
@@ -39,8 +40,9 @@ def _ask(  # noqa: PLR0913 - one question
     topic: str = "",
     patience_s: float = ANSWER_S,
     then: Callable[[], None] | None = None,
+    refused: Callable[[], None] | None = None,
 ) -> None:
-    """Forwards a command to a child; the child's answer becomes the reply. `then` is called on success.
+    """Forwards a command to a child; the child's answer becomes the reply (`Question`).
 
     The client counts as echoing `topic`, unless the child refuses.
     """
@@ -57,9 +59,24 @@ def _ask(  # noqa: PLR0913 - one question
         stage.output.refuse(event, NOT_ANSWERING, child.hang)
         return
     token = stage.questions.add(
-        event.client, event.request, child.key, stage.now_s, topic=topic, patience_s=patience_s, then=then
+        event.client,
+        event.request,
+        child.key,
+        stage.now_s,
+        topic=topic,
+        patience_s=patience_s,
+        then=then,
+        refused=refused,
     )
     stage.children.ask(kind, message, token)
+
+
+def _running(stage: Stage) -> Child | None:
+    """Returns the application that can take a command; None before it is loaded, and once it is to end."""
+    application = stage.children.get("application")
+    if application is None or application.is_stopping or stage.state not in HAS_APPLICATION:
+        return None
+    return application
 
 
 def _set_tick_rate(stage: Stage, event: CommandCame, data: messages.SetTickRate) -> None:
@@ -75,16 +92,24 @@ def _set_port(stage: Stage, event: CommandCame, data: messages.SetPort) -> None:
 
 
 def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpoints) -> None:
-    def note() -> None:
-        stage.hold.breakpoints = data
+    """Keeps them for this run and those to come, also where the application dies before it takes them."""
+    hold = stage.hold
+    hold.breakpoints = data
+    application, message = _running(stage), child_messages.SetBreakpoints(wanted=data)
 
-    application = stage.children.get("application")
-    if stage.python.is_stopped:  # it takes them when it continues
-        stage.children.tell_application(child_messages.SetBreakpoints(wanted=data))
-    elif application is not None and stage.state in HAS_APPLICATION:
-        _ask(stage, event, "application", child_messages.SetBreakpoints(wanted=data), then=note)
+    def note() -> None:
+        hold.given = data
+
+    def undo() -> None:
+        if hold.breakpoints is data:
+            hold.breakpoints = hold.given
+
+    if application is not None and not (stage.python.is_stopped or application.is_hanging):
+        _ask(stage, event, "application", message, then=note, refused=undo)
         return
-    note()
+    if application is not None:  # it takes them when it continues
+        note()
+        stage.children.tell_application(message)
     stage.output.send(event.client, messages.Ack(), event.request)
 
 
@@ -114,7 +139,7 @@ def _control(stage: Stage, event: CommandCame, data: messages.Control) -> None:
     def note() -> None:
         attaching.controls = data.on
 
-    if stage.state in HAS_APPLICATION:
+    if _running(stage) is not None:
         _ask(stage, event, "application", child_messages.Control(on=data.on), then=note)
         return
     note()
@@ -127,8 +152,7 @@ def _profile(stage: Stage, event: CommandCame, data: messages.SetProfile) -> Non
     def note() -> None:
         stage.hold.profile = stage.hold.profile_given = profile
 
-    application = stage.children.get("application")
-    if application is not None and stage.state in HAS_APPLICATION:
+    if _running(stage) is not None:
         _ask(stage, event, "application", child_messages.MeasureNodes(wanted=data), then=note)
         return
     stage.hold.profile = profile
@@ -145,8 +169,7 @@ def _serve_groot2(stage: Stage, event: CommandCame, data: messages.ServeGroot2) 
         stage.hold.groot2 = stage.hold.groot2_given = data.port
         stage.output.emit(messages.Groot2(data.port))
 
-    application = stage.children.get("application")
-    if application is not None and stage.state in HAS_APPLICATION:
+    if _running(stage) is not None:
         _ask(stage, event, "application", child_messages.ServeGroot2(port=data.port), then=note)
         return
     stage.hold.groot2 = data.port

@@ -23,7 +23,13 @@ ANSWER_S: Final = 5.0
 
 @dataclass(frozen=True)
 class Question:
-    """A command of a client that a child has to answer; `then` is called if the command succeeds."""
+    """A command of a client that a child has to answer.
+
+    Attributes:
+        then: is called if the command succeeds.
+        refused: is called if the child refuses it. With it the session keeps what is asked, so that the
+            command also succeeds where the child does not answer.
+    """
 
     client: str
     request: str
@@ -31,6 +37,7 @@ class Question:
     until_s: float
     topic: str = ""
     then: Callable[[], None] | None = None
+    refused: Callable[[], None] | None = None
 
 
 class Questions:
@@ -55,10 +62,12 @@ class Questions:
         topic: str = "",
         patience_s: float = ANSWER_S,
         then: Callable[[], None] | None = None,
+        refused: Callable[[], None] | None = None,
     ) -> str:
         """Stores a question; returns its token."""
         token = self.token()
-        self._questions[token] = Question(client, request, child, now_s + patience_s, topic, then)
+        until_s = now_s + patience_s
+        self._questions[token] = Question(client, request, child, until_s, topic, then, refused)
         return token
 
     def asker(self, token: str | None) -> str | None:
@@ -97,10 +106,14 @@ def answer(stage: Stage, question: Question, error: messages.Error | None) -> No
         return
     if question.topic:
         stage.clients.echo(question.client, question.topic, 0.0)
+    if question.refused is not None:
+        question.refused()
     stage.output.send(question.client, error, question.request)
 
 
 def answer_late(stage: Stage, questions: list[Question], code: str, reason: str, why: str = "") -> None:
-    """Replies with an error to the clients of questions that their child did not answer."""
+    """Replies to the clients of questions that their child did not answer: with an error, if it matters."""
     for question in questions:
-        answer(stage, question, messages.Error(code, why or f"The {question.child[0]} {reason}."))
+        is_kept = question.refused is not None
+        error = messages.Error(code, why or f"The {question.child[0]} {reason}.")
+        answer(stage, question, None if is_kept else error)

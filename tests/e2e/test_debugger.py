@@ -148,6 +148,8 @@ def it_is_corrected_and_run_again(studio: Studio) -> None:
     studio.page.get_by_role("tab", name="MainTree", exact=True).click()
     studio.set_port(CHECK, "obs_dist", "1.0")
     studio.at("restart").click()
+    # The press alone makes Run wait; the run before has the new value, too.
+    expect(studio.at("run")).to_have_attribute("aria-disabled", "false")
     studio.expect_state("application_running")
     expect(studio.at("held-banner")).to_have_count(0)
     expect(studio.at("node-n6")).to_have_attribute("data-status", "RUNNING", timeout=120_000)

@@ -18,7 +18,16 @@ if TYPE_CHECKING:
     from executor.session.child import Child
     from executor.session.stage import Stage
 
-__all__ = ["HOLD_DRIVER_GRACE_S", "Hold", "deadline_s", "expire", "held", "released", "settle"]
+__all__ = [
+    "HOLD_DRIVER_GRACE_S",
+    "Hold",
+    "deadline_s",
+    "expire",
+    "give_breakpoints",
+    "held",
+    "released",
+    "settle",
+]
 
 HOLD_DRIVER_GRACE_S: Final = 60.0
 OFF: Final = messages.SetBreakpoints([], on=False)
@@ -44,7 +53,7 @@ class Hold:
     groot2: int = 0
     since_s: float | None = None
     given: messages.SetBreakpoints | None = None
-    """The breakpoints with which the application was started."""
+    """The breakpoints that the application has."""
     profile_given: messages.SetProfile | None = None
     """The profile with which it was started."""
     groot2_given: int = 0
@@ -88,14 +97,20 @@ def released(stage: Stage, child: Child, message: child_messages.Released) -> No
     stage.enter(State.APPLICATION_RUNNING)
 
 
+def give_breakpoints(stage: Stage) -> None:
+    """Gives the application the breakpoints that were set while it was loading."""
+    hold = stage.hold
+    if hold.breakpoints is not None and hold.breakpoints is not hold.given:
+        hold.given = hold.breakpoints
+        stage.children.tell_application(child_messages.SetBreakpoints(wanted=hold.breakpoints))
+
+
 def settle(stage: Stage, application: Child) -> None:
     """Enters the state of a run that has begun or continues: the tree may be held already."""
     hold = stage.hold
-    if hold.breakpoints is not None and hold.breakpoints is not hold.given:
-        hold.given = hold.breakpoints  # they were set while the application was loading
-        stage.children.tell_application(child_messages.SetBreakpoints(wanted=hold.breakpoints))
+    give_breakpoints(stage)
     if hold.profile is not None and hold.profile is not hold.profile_given:
-        hold.profile_given = hold.profile  # as above
+        hold.profile_given = hold.profile  # it was switched while the application was loading
         stage.children.tell_application(child_messages.MeasureNodes(wanted=hold.profile))
     if hold.groot2 != hold.groot2_given:
         hold.groot2_given = hold.groot2  # as above

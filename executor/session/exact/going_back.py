@@ -14,6 +14,7 @@ from msgspec import structs
 
 from executor import child_messages, messages
 from executor.child_messages import ApplicationReady, Fault, GoingBack, WentBack
+from executor.session.debugger.holding import give_breakpoints
 from executor.session.exact.branching import throw_away
 from executor.session.exact.hosting import host
 from executor.session.exact.snapshots import keep_present, ticks_of
@@ -187,7 +188,7 @@ def _prepare(stage: Stage, past: PastRun) -> None:
     hold_world(stage)
     stage.children.wants_exact = True
     stage.mirror.begin_run(past.start.tick_hz)
-    stage.hold.since_s, stage.hold.given = None, stage.hold.breakpoints
+    stage.hold.since_s, stage.hold.given = None, None  # it has those of the moment
     stage.hold.groot2_given = 0  # it looks from the moment on, when the run resumes
 
 
@@ -233,8 +234,7 @@ def _take_over(stage: Stage, past: PastRun, application: Child, reached: WentBac
     host(stage, application)
     stage.recording.begin(parent=past.run, from_t=reached.t)
     stage.past.name(stage.recording.run)
-    if stage.hold.breakpoints is not None:
-        stage.children.tell_application(child_messages.SetBreakpoints(wanted=stage.hold.breakpoints))
+    give_breakpoints(stage)
     stage.enter(State.PAUSED)
     if (differs := application.said(child_messages.Differs)) is not None:
         _tell_differs(stage, differs)

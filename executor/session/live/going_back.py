@@ -12,6 +12,7 @@ from msgspec import structs
 
 from executor import child_messages, messages, recorder_messages
 from executor.child_messages import ApplicationReady, Fault
+from executor.session.debugger.holding import give_breakpoints
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import hold_world, terminate_application
 from executor.session.waits import Answered, Step, StepFailed, Wait, confirmed, is_spare_lost, taken
@@ -42,6 +43,7 @@ def go_back_live(stage: Stage, past: PastRun, t_s: float | None) -> Step:
     yield from _begin_again(stage, past, found)
     stage.recording.begin(parent=past.run, from_t=found.t)
     stage.past.name(stage.recording.run)
+    give_breakpoints(stage)
     stage.enter(State.PAUSED)
     text = f"The world is back at {found.t:.2f} s. The tree begins again there, with the recorded blackboard."
     stage.output.emit(messages.Log("manager", "info", text, time=found.t))

@@ -190,7 +190,8 @@ export interface Breakpoint {
  * Replaces all breakpoints of the session; they also hold for later runs.
  *
  * With `on` false none has an effect. Refused with `bad_breakpoint` if one cannot be set in the running
- * tree; all are as they were then.
+ * tree; all are as they were then. A program that is loading or ending, or that does not answer, cannot
+ * refuse them: what it does not take then, it names in the log.
  */
 export interface SetBreakpoints {
   breakpoints: Breakpoint[];

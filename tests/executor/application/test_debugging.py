@@ -113,6 +113,27 @@ async def test_while_held_the_blackboard_is_written_and_results_are_forced():
         assert (finished["status"], lines(client)) == ("FAILURE", [])
 
 
+async def test_breakpoints_that_are_set_while_the_program_is_restarted_hold_the_new_run():
+    async with session() as client:
+        await begin(client)
+        await client.event("tick", lambda d: d["n"] > 3)
+        await client.send("restart_application")
+        assert await client.ask("set_breakpoints", {"breakpoints": [at("b")]}) == "ack"
+        # The old run may hold, too, if it took them before its end.
+        await client.event("held", lambda d: (d["uid"], d["tick"]) == (UIDS["b"], 1))
+
+
+async def test_a_wrong_breakpoint_that_is_set_while_the_program_loads_is_named_and_left_out():
+    async with session() as client:
+        run = run_data(app("import time\ntime.sleep(2)\n" + COUNT, TREE))
+        await client.send("run", run)
+        await client.event("progress", lambda d: d["rung"] == "run_application")
+        wanted = [at("a", condition="1 +"), at("b")]
+        assert await client.ask("set_breakpoints", {"breakpoints": wanted}) == "ack"
+        await held_at(client, "b")
+        assert any("A breakpoint cannot be set" in log["text"] for log in client.named("log"))
+
+
 DRIVES = action("""
 def setup(self, node, **kwargs):
     from geometry_msgs.msg import Twist

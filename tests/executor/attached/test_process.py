@@ -118,6 +118,9 @@ def test_a_program_is_followed_held_and_lost_while_it_is_held(tmp_path: Path) ->
         session.tell(child_messages.Continue(request="go"))
         session.hear(child_messages.Released)
         session.hear(child_messages.Held, lambda held: held.uid == 8)
+        wrong = messages.SetBreakpoints([messages.Breakpoint("Sub", "u5", condition="a > 1")])
+        session.tell(child_messages.SetBreakpoints(wanted=wrong))  # no client waits for the refusal
+        assert "condition" in session.hear(child_messages.Log).text
         program.kill()
         session.hear(child_messages.Released)
         assert "no answer" in session.hear(child_messages.Attached, state("silent")).problem

@@ -159,6 +159,28 @@ async def test_a_run_that_is_looked_at_and_handled_equals_one_in_lock_step(tmp_p
         assert mine == {t: theirs[topic][t] for t in mine}, topic
 
 
+SLOW = """
+        import time
+        time.sleep(0.03)
+"""
+
+
+async def test_the_recording_of_a_slow_run_has_each_tick_at_its_time_also_after_a_reset(tmp_path):
+    async with recorded_session(tmp_path / "exact.mcap") as client:
+        data = exact(app_zip(Forward=forward(SLOW)))
+        data["universe"]["speed"] = 10.0  # faster than the machine can
+        at = await ready(client, data)
+        await client.event("tick", lambda d: d["n"] > 20, after=at)
+        assert await client.ask("reset_world") == "ack"
+        at = len(client.events)
+        await client.until(lambda: len(client.named("tick", after=at)) > 100)
+        assert await client.ask("disconnect") == "ack"
+    ticks = rows(tmp_path / "exact.mcap")["/bt/tick"]
+    assert len(ticks) > 100
+    assert {t: found for t, found in ticks.items() if {row["stamp"] for row in found} != {t}} == {}
+    assert min(ticks) < 0.2e9, "the first ticks after a reset"
+
+
 def child_of(manager: Any) -> psutil.Process:
     """Returns the process of the run: the first one of its program that is no snapshot, and has not ended."""
     runs = []

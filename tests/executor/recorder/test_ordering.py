@@ -32,6 +32,31 @@ def test_a_source_that_is_silent_or_gone_is_not_waited_for():
     assert list(order.ready(1.0)) == [(30, "d")]
 
 
+def test_two_sources_of_one_process_wait_for_each_other_however_long_they_are_silent():
+    order = Ordering[str]()
+    order.belongs(1, 77)
+    order.belongs(2, 77)
+    order.put(5, "tick 1", 2, 0.0)
+    order.put(20, "scan", 1, 0.0)
+    assert list(order.ready(0.0)) == [(5, "tick 1")]
+    assert list(order.ready(60.0)) == []
+    order.put(10, "tick 2", 2, 61.0)
+    order.reached(20, 2, 61.0)
+    assert list(order.ready(61.0)) == [(10, "tick 2"), (20, "scan")]
+    order.put(30, "last scan", 1, 62.0)
+    order.drop(2)  # the process ends
+    assert list(order.ready(62.0)) == [(30, "last scan")]
+
+
+def test_a_source_whose_process_nobody_knows_waits_for_no_other():
+    order = Ordering[str]()
+    order.belongs(1, 0)
+    order.belongs(2, 0)
+    order.put(5, "b", 2, 0.0)
+    order.put(20, "a", 1, 0.2)
+    assert list(order.ready(SILENT_S)) == [(5, "b"), (20, "a")]
+
+
 def test_a_source_without_anything_to_tell_says_how_far_it_has_come():
     order = Ordering[str]()
     order.put(5, "b", 2, 0.0)

@@ -59,6 +59,7 @@ def test_two_recorders_cannot_listen_at_one_address_and_only_this_user_is_taken(
             client.connect(f"\0{address}")
             source = take_source(listener)
             assert source is not None
+            assert source.process == os.getpid()
             source.connection.close()
 
 

@@ -4,7 +4,7 @@ import { useEffect, useState, type SyntheticEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { reasonOf } from '@/api/reason';
-import { attachedPath, navigate } from '@/store/route';
+import { openBegun } from '@/store/route/begun';
 
 const KEY = 'bts.attach.address';
 
@@ -25,7 +25,7 @@ export function AttachDialog({ isOpen, onOpen, onClose }: Props) {
     onSuccess: (session, wanted) => {
       localStorage.setItem(KEY, wanted);
       onClose();
-      navigate(attachedPath(session.id));
+      openBegun(session);
     },
   });
   useEffect(() => {

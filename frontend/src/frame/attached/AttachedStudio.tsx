@@ -21,7 +21,8 @@ import { followPresent } from '@/store/moment/looking';
 import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
-import { attachedPath, navigate } from '@/store/route';
+import { navigate } from '@/store/route';
+import { openBegun } from '@/store/route/begun';
 import { useSessionStore } from '@/store/session/store';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { attachedLayout } from '@/workspace/layoutModel';
@@ -85,7 +86,7 @@ function Ended({ address, why }: { readonly address: string; readonly why: strin
   const { t } = useTranslation('attached');
   const { mutate, isPending, error } = useMutation({
     mutationFn: api.attach,
-    onSuccess: (session) => navigate(attachedPath(session.id)),
+    onSuccess: openBegun,
   });
   return (
     <Problem title={t('ended')} text={error ? reasonOf(error) : why} hint="">

@@ -2,6 +2,7 @@ import { useEffect, useState } from 'react';
 import { api } from '@/api/client';
 import type { AttachedTree } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
+import { takeBegun } from '@/store/route/begun';
 import { joinSession, leave } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 import { attachedId, detailOf } from './detail';
@@ -28,7 +29,7 @@ export function useAttached(sessionId: string): Following {
       if (!isLeft) setFollowing((before) => ({ ...before, ...part }));
     };
     const join = async () => {
-      const found = await api.getSession(sessionId);
+      const found = takeBegun(sessionId) ?? (await api.getSession(sessionId));
       if (isLeft) return;
       const address = found.target;
       change({ address });

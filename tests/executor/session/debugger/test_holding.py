@@ -116,6 +116,84 @@ def test_breakpoints_are_kept_for_later_runs_and_those_set_while_it_loads_follow
     assert [m.wanted.breakpoints for m in messages_of(play, SetBreakpoints)] == [[]]
 
 
+def begun_with(play: Play) -> list[str]:
+    """Returns the blocks with the breakpoints that the last application was started with."""
+    wanted = messages_of(play, StartApplication)[-1].breakpoints
+    return [each.node_id for each in wanted.breakpoints]
+
+
+def test_breakpoints_that_are_set_while_a_run_is_restarted_are_those_of_the_new_one() -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    restart = play.command("restart_application")
+    assert play.told("application")[-1] == "stop"
+    given = play.command("set_breakpoints")  # the old application obeys nothing any more
+    assert play.reply(given) == "ack"
+    assert messages_of(play, SetBreakpoints) == []
+    play.obedient = True
+    play.child_dies("application", "ended with exit code 0")
+    assert play.reply(restart) == "ack"
+    assert begun_with(play) == ["n1"]
+
+
+@pytest.mark.parametrize("ends", ["dies", "finishes", "is ended"])
+def test_breakpoints_that_an_application_does_not_take_before_its_end_are_those_of_the_next(ends) -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    given = play.command("set_breakpoints")
+    assert play.reply(given) is None
+    play.obedient = True
+    match ends:
+        case "dies":
+            play.child_dies("application")
+        case "finishes":
+            play.child_says("application", "finished", status="SUCCESS", reason="root_finished")
+        case _:
+            play.command("terminate_application")
+    assert play.reply(given) == "ack"
+    play.command("run")
+    assert begun_with(play) == ["n1"]
+
+
+def test_an_application_that_hangs_gets_breakpoints_once_it_continues() -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    application = play.session.children.living["application"]
+    application.hang = "The application does not answer."
+    application.vitals.silent_s = 60.0
+    assert application.is_hanging
+    assert play.reply(play.command("set_breakpoints")) == "ack"
+    assert play.told("application")[-1] == "set_breakpoints"
+
+
+def test_breakpoints_that_are_taken_late_are_kept() -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    given = play.command("set_breakpoints")
+    play.later(6.0)
+    assert play.reply(given) == "ack"
+    play.obedient = True
+    play.command("restart_application")
+    assert begun_with(play) == ["n1"]
+
+
+def test_breakpoints_that_the_tree_refuses_leave_those_before() -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.command("set_breakpoints")
+    play.obedient = False
+    wrong = play.command("set_breakpoints", breakpoints=[{"tree_id": "Main", "node_id": "n2"}])
+    asked = messages_of(play, SetBreakpoints)[-1].request
+    play.child_says("application", "answer", request=asked, error={"code": "bad_breakpoint", "message": "-"})
+    assert play.reply(wrong) == "bad_breakpoint"
+    play.obedient = True
+    play.command("restart_application")
+    assert begun_with(play) == ["n1"]
+
+
 def test_a_hold_that_lasts_too_long_ends_with_a_notice() -> None:
     play = held()
     play.command("set_breakpoints")

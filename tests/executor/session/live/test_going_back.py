@@ -51,6 +51,23 @@ def test_the_world_goes_back_and_the_tree_begins_again(state: State) -> None:
     assert play.state is State.APPLICATION_RUNNING
 
 
+def test_breakpoints_that_are_set_on_the_way_are_there_when_it_pauses() -> None:
+    play = recorded()
+    play.obedient = False
+    play.command("go_back", t=1.5)
+    waiting, is_set = play.effects[-3:], False
+    while waiting:
+        answers = [answer for effect in waiting for answer in play.answers(effect)]
+        at = len(play.effects)
+        if len(started(play)) == 2 and not is_set:
+            is_set = play.reply(play.command("set_breakpoints")) == "ack"
+        for answer in answers:
+            play.happens(answer)
+        waiting = play.effects[at:]
+    assert play.state is State.PAUSED
+    assert play.told("application")[-1] == "set_breakpoints"
+
+
 def test_the_program_is_that_of_the_moment() -> None:
     play = recorded()
     first = play.session.recording.run

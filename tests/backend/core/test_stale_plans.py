@@ -12,6 +12,7 @@ from backend.config import team
 from backend.core.stale_plans import watch_plans
 from tests.backend.services import postgresql
 
+pytestmark = pytest.mark.django_db(transaction=True)
 ASKED = "SELECT address FROM places"
 
 

@@ -8,19 +8,22 @@ rights. Notices may be lost, and the command line cannot send them; therefore so
 
 from __future__ import annotations
 
-from contextlib import asynccontextmanager
+import asyncio
+import logging
+from contextlib import AsyncExitStack, asynccontextmanager
 from typing import TYPE_CHECKING, Any, Final
 
-from channels.layers import get_channel_layer
 from django.db import transaction
 from django.dispatch import Signal
 
 from backend.config.environment import environment
-from backend.core.notify import tell
+from backend.core.notify import NoNoticesError, following, tell
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable
     from uuid import UUID
+
+log = logging.getLogger(__name__)
 
 GROUP: Final = "rights"
 RECHECK_S: Final = 60.0
@@ -51,12 +54,17 @@ def _tell(user_id: int | None, project_id: UUID | None) -> None:
 async def notices() -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
     """Yields a function that waits for the next notice.
 
-    If the notice may concern all users, its `user_id` is None.
+    If the notice may concern all users, its `user_id` is None. While Redis does not answer there are none,
+    and a socket that opens is checked every `RECHECK_S` alone.
     """
-    layer = get_channel_layer()
-    channel = await layer.new_channel()
-    await layer.group_add(GROUP, channel)
-    try:
-        yield lambda: layer.receive(channel)
-    finally:
-        await layer.group_discard(GROUP, channel)
+    async with AsyncExitStack() as stack:
+        try:
+            next_notice = await stack.enter_async_context(following(GROUP))
+        except NoNoticesError as error:
+            log.warning("%s", error)
+            next_notice = _never
+        yield next_notice
+
+
+async def _never() -> dict[str, Any]:
+    return await asyncio.Future()

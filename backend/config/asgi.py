@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
 django.setup()
 
-from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up first
+from channels.db import database_sync_to_async  # noqa: E402 - Django must be set up first
 from channels.routing import ProtocolTypeRouter  # noqa: E402
 
 from backend.config.probes import probed  # noqa: E402
@@ -40,7 +40,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
         message = await receive()
         if message["type"] == "lifespan.startup":
             notify.serve(asyncio.get_running_loop())
-            await sync_to_async(begin)()
+            await database_sync_to_async(begin)()
             tasks.append(asyncio.create_task(care_for_ever()))
             if siblings.family is not None:
                 tasks.append(asyncio.create_task(beat_for_ever(requests.threads)))
@@ -49,7 +49,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
-            await sync_to_async(end_all_sessions)()
+            await database_sync_to_async(end_all_sessions)()
             notify.serve(None)
             await send({"type": "lifespan.shutdown.complete"})
             return

@@ -18,6 +18,8 @@ PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
 MEBIBYTE = 1024 * 1024
 RELAY_PORT = 7164
+LONGEST_HOST = 150
+"""Characters of a host's name: addresses of sessions, which contain it, have 200 at most."""
 HOST_ADDRESS = re.compile(r"(?P<host>[0-9a-z]([0-9a-z.-]*[0-9a-z])?|\[[0-9a-f:]+\])(:(?P<port>\d{1,5}))?")
 
 
@@ -261,6 +263,8 @@ def _with_port(text: str) -> str:
     found = HOST_ADDRESS.fullmatch(text.strip().lower())
     if found is None or not 0 < int(found["port"] or RELAY_PORT) < 65536:
         raise ValueError(f"“{text}” is neither HOST nor HOST:PORT")
+    if len(found["host"]) > LONGEST_HOST:
+        raise ValueError(f"“{text[:40]}…” has more than {LONGEST_HOST} characters")
     return f"{found['host']}:{found['port'] or RELAY_PORT}"
 
 

@@ -22,7 +22,7 @@ import time
 from ipaddress import ip_address
 from typing import TYPE_CHECKING, Any, Final
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 
 from backend.config.environment import environment
 from backend.config.healthcheck import READY
@@ -133,10 +133,10 @@ async def _answer(scope: HTTPScope, threads: Threads) -> tuple[int, str, str]:
         return _health(_late("has answered", least_s(STUCK, threads.stuck_for_s()), NOT_LIVE_S))
     if scope["path"] == READY:
         late = _late("has been free", least_s(FULL, threads.full_for_s()), NOT_READY_S)
-        return _health(late or await sync_to_async(trouble)())
+        return _health(late or await database_sync_to_async(trouble)())
     if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
-    return 200, *await sync_to_async(_metrics)()
+    return 200, *await database_sync_to_async(_metrics)()
 
 
 def _late(what: str, seconds: float, limit_s: float) -> str:

@@ -1,18 +1,54 @@
-"""Sends notices over the channel layer from any thread, without waiting for their delivery."""
+"""Notices over the channel layer: sent from any thread without waiting for their delivery, and followed."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from typing import TYPE_CHECKING, Any
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
 log = logging.getLogger(__name__)
+Result = TypeVar("Result")
+
+
+class NoNoticesError(Exception):
+    """Raised when Redis does not answer, so that notices cannot be followed."""
+
+
+@asynccontextmanager
+async def following(group: str) -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
+    """Yields a function that waits for the next notice to a group.
+
+    Raises:
+        NoNoticesError: Redis does not answer.
+    """
+    layer = get_channel_layer()
+    try:
+        channel = await _tried_again(layer.new_channel)
+        await _tried_again(lambda: layer.group_add(group, channel))
+    except Exception as error:
+        raise NoNoticesError(f"notices cannot be followed: {error}") from error
+    try:
+        yield lambda: layer.receive(channel)
+    finally:
+        try:
+            await layer.group_discard(group, channel)
+        except Exception as error:  # the socket ends in any case
+            log.warning("a channel was not left: %s", error)
+
+
+async def _tried_again(ask: Callable[[], Awaitable[Result]]) -> Result:
+    """Asks Redis, and asks once more: after its restart the first one finds a lost connection."""
+    try:
+        return await ask()
+    except Exception:  # the second failure is raised
+        return await ask()
 
 
 class _Teller:
@@ -41,9 +77,10 @@ class _Teller:
     async def _send(self, group: str, notice: Mapping[str, Any]) -> None:
         try:
             await get_channel_layer().group_send(group, notice)
-        except Exception:
-            # A lost notice does no harm: the change that it announces is stored.
-            log.exception("a notice was not sent")
+        except Exception as error:  # whatever the channel layer raises
+            # A lost notice does no harm: the change that it announces is stored. While Redis is away each
+            # save comes here, so this is one line.
+            log.warning("a notice was not sent: %s", error)
 
 
 _teller = _Teller()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import re  # noqa: TC003
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
@@ -16,13 +17,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from uuid import UUID
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 
 from backend.accounts import rights
 from backend.accounts.identity import identify
 from backend.config.environment import environment
 from backend.core import guard
 from backend.core.connection_costs import known
+from backend.core.notify import NoNoticesError
 from backend.core.problems import StudioError
 from backend.core.scopes import cookies_of, facts_of, headers_of
 from backend.core.websocket import MOST_BYTES, SMALL_BYTES
@@ -34,10 +36,13 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
 
+log = logging.getLogger(__name__)
+
 PROTOCOL: Final = "bt-studio.v1"
 ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
 """The pattern of a project's or session's id in a path."""
 POLICY_VIOLATION: Final = 1008
+TRY_AGAIN_LATER: Final = 1013
 SIGNED_OUT: Final = 4401
 FORBIDDEN: Final = 4404
 _REASON_BYTES: Final = 120  # a close frame holds 123
@@ -163,6 +168,9 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
             closed = await route.handler(call, receive, send)
     except StudioError as error:
         closed = Closed(FORBIDDEN, error.detail)
+    except NoNoticesError as error:
+        log.warning("%s", error)
+        closed = Closed(TRY_AGAIN_LATER, "The server's notices do not work now. Try again in a moment.")
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})
@@ -196,7 +204,7 @@ async def _until_forbidden(route: Route, call: Call, scope: WebSocketScope) -> C
             if user is None or user.pk != call.user.pk:
                 return Closed(SIGNED_OUT, "You are signed out.")
             try:
-                await sync_to_async(route.may)(UUID(call.address[1]), user)
+                await database_sync_to_async(route.may)(UUID(call.address[1]), user)
             except StudioError as error:
                 return Closed(FORBIDDEN, error.detail)
 
@@ -207,7 +215,9 @@ def _route(routes: Mapping[re.Pattern[str], Route], path: str) -> tuple[re.Match
 
 
 async def _user(scope: WebSocketScope) -> User | None:
-    return await sync_to_async(identify)(cookies_of(headers_of(scope).get("cookie", "")))
+    cookies = cookies_of(headers_of(scope).get("cookie", ""))
+    user: User | None = await database_sync_to_async(identify)(cookies)
+    return user
 
 
 def short(reason: str) -> str:

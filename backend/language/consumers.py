@@ -20,7 +20,7 @@ from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from uuid import UUID
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 
 from backend.config.environment import environment
 from backend.core.problems import NotFoundError
@@ -79,7 +79,7 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
 async def _serve(page: Page, following: Following) -> Closed | None:
     starting = launcher()
     # Reading the files also checks that the user may access the project, before a server starts.
-    contents = await sync_to_async(_contents)(page)
+    contents = await database_sync_to_async(_contents)(page)
     server = await starting.start(page.project_id, page.user, contents)
     try:
         return await Relay(page, server).run(following)
@@ -178,7 +178,7 @@ class Relay:
         while True:
             await following()
             try:
-                contents = await sync_to_async(_contents)(self._page)
+                contents = await database_sync_to_async(_contents)(self._page)
             except NotFoundError:
                 await self._server.forget()
                 return Closed(NO_SUCH_PROJECT, "The project was deleted.")

@@ -14,7 +14,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.core.problems import NotFoundError
@@ -128,7 +128,7 @@ def _is_ping(text: str) -> bool:
 async def _explained(session: Session, closed: Closed) -> Closed:
     """Adds the reason why an executor was lost; its process ends a moment after its sockets."""
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
-        session = await sync_to_async(writes.seen_again)(session)
+        session = await database_sync_to_async(writes.seen_again)(session)
         if session.state != SessionState.READY:
             return _ended(session)
         await asyncio.sleep(LOST_POLL_S)
@@ -149,17 +149,19 @@ async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | Non
 
     A waiting browser is sent its position.
     """
-    find = sync_to_async(lambda: queries.session(session_id, user=user))
+    find = database_sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
     # Another web server may be starting it: so this polls the database and waits for no local event.
-    while (session := await find()).state in {SessionState.QUEUED, SessionState.STARTING}:
+    session: Session = await find()
+    while session.state in {SessionState.QUEUED, SessionState.STARTING}:
         is_queued = session.state == SessionState.QUEUED
-        place = await sync_to_async(queries.position)(session) if is_queued else None
+        place = await database_sync_to_async(queries.position)(session) if is_queued else None
         if place != told and place is not None and send is not None:
             text = f"The server is full; this session is number {place} of those that wait."
             await say(send, "progress", {"rung": "connect", "fraction": 0, "message": text})
         told = place
         await asyncio.sleep(QUEUE_POLL_S if is_queued else POLL_S)
+        session = await find()
     return session
 
 

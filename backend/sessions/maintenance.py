@@ -18,7 +18,7 @@ from collections import defaultdict
 from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 from django.db import Error
 from django.db.models import Q
 from django.utils import timezone
@@ -131,7 +131,7 @@ async def care_for_ever() -> None:
                 log.exception("the sessions were not looked after")
             await asyncio.sleep(EVERY_S)
     finally:
-        await sync_to_async(_give_back)()
+        await database_sync_to_async(_give_back)()
 
 
 async def one_round(rounds_held: Iterator[int]) -> None:
@@ -141,14 +141,14 @@ async def one_round(rounds_held: Iterator[int]) -> None:
         rounds_held: counts the rounds in which this server has the lease. In the first one it ends what a
             server left that died with the lease.
     """
-    is_ours = await sync_to_async(holder.hold)(CARE, LEASE_S)
-    watchmen.keep_to(await sync_to_async(ready_sessions)(), all_of_them=is_ours)
-    await sync_to_async(note_used)(attendance.take_used())
+    is_ours = await database_sync_to_async(holder.hold)(CARE, LEASE_S)
+    watchmen.keep_to(await database_sync_to_async(ready_sessions)(), all_of_them=is_ours)
+    await database_sync_to_async(note_used)(attendance.take_used())
     if is_ours:
         is_for_orphans = next(rounds_held) % ROUNDS_TO_ORPHANS == 0 and not is_alone()
-        await sync_to_async(maintain)(is_for_orphans=is_for_orphans)
-    soon = await sync_to_async(ending_soon)()
-    text = await sync_to_async(drain.text)()
+        await database_sync_to_async(maintain)(is_for_orphans=is_for_orphans)
+    soon = await database_sync_to_async(ending_soon)()
+    text = await database_sync_to_async(drain.text)()
     await pages.tell(text)
     await attendance.tell(text)
     attendance.keep_warned(soon)

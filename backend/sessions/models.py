@@ -59,7 +59,7 @@ class Session(models.Model):
     state = models.CharField(max_length=16, choices=SessionState.choices, default=SessionState.STARTING)
     launcher = models.CharField(max_length=32)
     launcher_state = models.JSONField(default=dict)
-    address = models.CharField(max_length=400, blank=True)
+    address = models.CharField(max_length=200, blank=True)
     # Whether it is an evaluation with a Ray cluster of its own.
     own_cluster = models.BooleanField(default=False, db_default=False)
     # A server of the release before, which may serve at the same time, writes no host.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import tempfile
@@ -46,7 +47,7 @@ class Cluster:
         ready = [_program("pg_isready"), "-q", "-h", self._folder, "-U", "bts"]
         deadline = time.monotonic() + TIMEOUT_S
         while not self._runs() or not _answers(ready):
-            assert time.monotonic() < deadline, (self._folder / "log").read_text()[-2000:]
+            assert time.monotonic() < deadline, self.said()[-2000:]
             if not self._runs():
                 self._process = subprocess.Popen(
                     self._command, stdout=self._log, stderr=self._log, cwd=self._folder, **self._options
@@ -55,6 +56,15 @@ class Cluster:
 
     def _runs(self):
         return self._process is not None and self._process.poll() is None
+
+    def said(self):
+        """Returns the server's log."""
+        return (self._folder / "log").read_text()
+
+    def crash(self):
+        """Ends the server at once, without a checkpoint: its next start recovers from its log."""
+        self._process.send_signal(signal.SIGQUIT)
+        self._process.wait(timeout=TIMEOUT_S)
 
     def end(self):
         self._process.terminate()  # "smart": waits for clients; the second signal does not
@@ -99,29 +109,43 @@ def postgresql(place=None, **settings):
         yield running.url
 
 
+class Redis:
+    """A Redis server that stores nothing on disk, on a Unix socket alone."""
+
+    def __init__(self, folder):
+        self._socket = f"{folder}/redis.sock"
+        self.url = f"unix://{self._socket}?db=0"
+        self._command = [_program("redis-server"), "--port", "0", "--unixsocket", self._socket]
+        self._command += ["--save", "", "--dir", folder]
+        self.start()
+
+    def start(self):
+        """Starts an empty server, and waits until it answers."""
+        self._process = subprocess.Popen(self._command, stdout=subprocess.DEVNULL)
+        ping = [_program("redis-cli"), "-s", self._socket, "ping"]
+        await_service(lambda: _answers(ping), self._process)
+
+    def end(self, how=signal.SIGTERM):
+        self._process.send_signal(how)
+        self._process.wait(timeout=TIMEOUT_S)
+
+
+@contextmanager
+def redis_server():
+    """An empty Redis."""
+    with tempfile.TemporaryDirectory(prefix="bts-redis-") as name:
+        running = Redis(name)
+        try:
+            yield running
+        finally:
+            running.end()
+
+
 @contextmanager
 def redis():
-    """The URL of an empty Redis, on a Unix socket alone."""
-    with tempfile.TemporaryDirectory(prefix="bts-redis-") as name:
-        socket = f"{name}/redis.sock"
-        command = [
-            _program("redis-server"),
-            "--port",
-            "0",
-            "--unixsocket",
-            socket,
-            "--save",
-            "",
-            "--dir",
-            name,
-        ]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-        try:
-            await_service(lambda: _answers([_program("redis-cli"), "-s", socket, "ping"]), process)
-            yield f"unix://{socket}?db=0"
-        finally:
-            process.terminate()
-            process.wait(timeout=TIMEOUT_S)
+    """The URL of an empty Redis."""
+    with redis_server() as running:
+        yield running.url
 
 
 def _answers(command):

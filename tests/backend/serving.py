@@ -34,16 +34,20 @@ class Served:
         return self.process.returncode
 
 
-def start(folder, *arguments, prefix=(), program=PROGRAM, **environment):
-    """A process that serves, or tries to; started by the program `prefix`, if any."""
+def start(folder, *arguments, prefix=(), program=PROGRAM, log=None, repository=REPOSITORY, **environment):
+    """A process that serves, or tries to; started by the program `prefix`, if any.
+
+    What it says goes to the open file `log`, or to pipes, which hold 64 KB: a server that says more waits.
+    Its program is that of `repository`.
+    """
     clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
     command = [sys.executable, *program, "serve", "--no-browser", "--data-dir", str(folder)]
     return subprocess.Popen(
         [*prefix, *command, *arguments],
-        cwd=REPOSITORY,
-        env=clean | environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        cwd=repository,
+        env=clean | {"PYTHONPATH": str(repository)} | environment,
+        stdout=log or subprocess.PIPE,
+        stderr=log or subprocess.PIPE,
         text=True,
     )
 
@@ -59,12 +63,13 @@ def await_ready(process, ready_file):
 
 
 @contextmanager
-def serving(folder, *arguments, prefix=(), program=PROGRAM, **environment):
+def serving(folder, *arguments, prefix=(), program=PROGRAM, log=None, repository=REPOSITORY, **environment):
     """A server on a free port, which is stopped at the end."""
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
     own = ("--port", "0", "--ready-file", str(ready_file))
-    process = start(folder, *own, *arguments, prefix=prefix, program=program, **environment)
+    how = {"prefix": prefix, "program": program, "log": log, "repository": repository}
+    process = start(folder, *own, *arguments, **how, **environment)
     with process:
         try:
             yield Served(process, await_ready(process, ready_file))

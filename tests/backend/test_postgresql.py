@@ -9,7 +9,7 @@ import sys
 import pytest
 import requests
 
-from tests.backend.services import postgresql, redis
+from tests.backend.services import cluster, postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving
 from tests.budget import count
 
@@ -62,6 +62,18 @@ def test_the_suite_passes_on_postgresql_and_redis():
             command, cwd=REPOSITORY, env=os.environ | services, capture_output=True, text=True, check=False
         )
     assert run.returncode == 0, run.stdout[-8000:] + run.stderr[-2000:]
+
+
+@pytest.mark.timeout(300)
+def test_a_server_continues_after_its_database_was_restarted(tmp_path):
+    """Its event loop asks the database in a thread that keeps its connection, and so do sockets."""
+    with cluster(fsync="off") as database, serving(tmp_path, BT_STUDIO_DATABASE_URL=database.url) as server:
+        ready = f"{server.base}/health/ready"
+        assert requests.get(ready, timeout=TIMEOUT_S).status_code == 200
+        database.crash()
+        assert requests.get(ready, timeout=TIMEOUT_S).status_code == 503
+        database.start()
+        assert requests.get(ready, timeout=TIMEOUT_S).status_code == 200
 
 
 @pytest.mark.timeout(300)

@@ -25,6 +25,7 @@ BENCHMARKS = (
     "recording",
     "flood",
     "known_sessions",
+    "two_servers",
     "opening",
     "browser",
     "evaluate_panel",

@@ -1,4 +1,4 @@
-"""Writes all data of a server to one file, and reads it into any database of the same version.
+"""Writes all data of a server to one file, and reads it into any database of this version or the next ones.
 
 A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, with one row in each line.
 The database is read in one transaction, so the backup is the state of one moment, also while people work.
@@ -17,12 +17,13 @@ from typing import IO, TYPE_CHECKING, Any, Final
 
 from django.apps import apps
 from django.core import serializers
+from django.core.exceptions import FieldDoesNotExist
 from django.core.management.color import no_style
 from django.core.serializers.json import DjangoJSONEncoder
-from django.db import connection, transaction
-from django.db.migrations.recorder import MigrationRecorder
+from django.db import IntegrityError, connection, transaction
 
 from backend import __version__
+from backend.cli.shared.backup_age import applied_migrations, require_readable
 from backend.cli.shared.backup_error import BackupError
 from backend.cli.shared.backup_objects import Returning, copy_objects, number_of_objects
 
@@ -42,6 +43,7 @@ LEFT_OUT: Final = frozenset(
         "executor_sessions.drain",
         "executor_sessions.lease",
         "executor_sessions.session",
+        "executor_sessions.warmexecutor",
         "projects.idempotencykey",
         "sessions.session",
     }
@@ -81,7 +83,7 @@ def write_backup(
             "version": VERSION,
             "bt_studio": __version__,
             "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
-            "migrations": _migrations(),
+            "migrations": applied_migrations(),
             "tables": tables,
             "objects": {
                 "copied": copied is not None,
@@ -98,7 +100,8 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
     Returns the number of rows of each table.
 
     Raises:
-        BackupError: the backup is damaged or of another version, or the database is not empty.
+        BackupError: the backup is damaged, or of a later version or one that is too old, or the database is
+            not empty.
     """
     try:
         with zipfile.ZipFile(source) as archive:
@@ -108,6 +111,8 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
             return _load(archive, manifest)
     except (zipfile.BadZipFile, KeyError, TypeError, EOFError, OSError) as error:
         raise BackupError(f"This is no readable backup: {error}.") from error
+    except (serializers.base.DeserializationError, FieldDoesNotExist, IntegrityError) as error:
+        raise BackupError(f"The backup does not have the rows of this version: {error}.") from error
 
 
 class _ExactEncoder(DjangoJSONEncoder):
@@ -147,10 +152,6 @@ def _member(name: str) -> str:
     return f"tables/{name}.jsonl"
 
 
-def _migrations() -> list[list[str]]:
-    return sorted([app, name] for app, name in MigrationRecorder(connection).applied_migrations())
-
-
 def _manifest(archive: zipfile.ZipFile) -> dict[str, Any]:
     try:
         manifest = json.loads(archive.read(MANIFEST))
@@ -158,15 +159,27 @@ def _manifest(archive: zipfile.ZipFile) -> dict[str, Any]:
         raise BackupError("This is no backup of BT Studio: it has no manifest.") from error
     if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
         raise BackupError("This is no backup of BT Studio.")
-    if manifest.get("version") != VERSION or manifest.get("migrations") != _migrations():
+    made_by = manifest.get("bt_studio")
+    if manifest.get("version") != VERSION:
         raise BackupError(
-            f"The backup was made by BT Studio {manifest.get('bt_studio')} with other tables than those of "
-            f"{__version__}: restore it with that version, and upgrade then."
+            f"The backup was made by BT Studio {made_by} in another format than that of {__version__}: "
+            "restore it with that version, and upgrade then."
         )
-    expected = {model._meta.label_lower for model in _models()}
-    if set(manifest["tables"]) != expected or not isinstance(manifest.get("objects"), dict):
-        raise BackupError("The backup does not have the tables of this version.")
+    is_earlier = require_readable(manifest.get("migrations"), made_by, LEFT_OUT)
+    if is_earlier:
+        # Before there was an object store, nothing was said of it.
+        manifest.setdefault("objects", {"copied": True, "number": 0})
+    _require_tables(manifest, is_earlier=is_earlier)
     return manifest
+
+
+def _require_tables(manifest: dict[str, Any], *, is_earlier: bool) -> None:
+    """Checks that a backup has the tables of this version, but for those that an earlier one had not."""
+    expected = {model._meta.label_lower for model in _models()}
+    found = set(manifest["tables"]) - LEFT_OUT
+    is_complete = found <= expected if is_earlier else found == expected
+    if not is_complete or not isinstance(manifest.get("objects"), dict):
+        raise BackupError("The backup does not have the tables of this version.")
 
 
 def _check(archive: zipfile.ZipFile, name: str, table: dict[str, Any]) -> None:
@@ -192,7 +205,8 @@ def _load(archive: zipfile.ZipFile, manifest: dict[str, Any]) -> dict[str, int]:
             model._base_manager.all().delete()
         with connection.constraint_checks_disabled():
             returning = Returning(archive, manifest["objects"])
-            counts = {model._meta.label_lower: _fill(archive, model, returning) for model in models}
+            there = [model for model in models if model._meta.label_lower in manifest["tables"]]
+            counts = {model._meta.label_lower: _fill(archive, model, returning) for model in there}
         connection.check_constraints()
         with connection.cursor() as cursor:
             for statement in connection.ops.sequence_reset_sql(no_style(), models):

@@ -8,7 +8,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
-from asgiref.sync import sync_to_async
+from channels.db import database_sync_to_async
 
 from backend.core.problems import NotFoundError
 from backend.ingress.sockets import ID, POLICY_VIOLATION, Call, Closed
@@ -47,7 +47,7 @@ async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISend
     project_id = UUID(call.address[1])
     async with notices_of(project_id) as following:
         try:
-            project = await sync_to_async(
+            project = await database_sync_to_async(
                 lambda: queries.project(project_id, user=call.user, need=Need.READ)
             )()
         except NotFoundError:

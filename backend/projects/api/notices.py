@@ -8,10 +8,9 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, Final
 
-from channels.layers import get_channel_layer
 from django.db import transaction
 
-from backend.core.notify import tell
+from backend.core.notify import following, tell
 from backend.projects.signals import revision_made
 
 if TYPE_CHECKING:
@@ -47,11 +46,10 @@ def group_of(project_id: UUID) -> str:
 
 @asynccontextmanager
 async def notices_of(project_id: UUID) -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
-    """Yields a function that waits for the next notice about a project."""
-    layer = get_channel_layer()
-    channel = await layer.new_channel()
-    await layer.group_add(group_of(project_id), channel)
-    try:
-        yield lambda: layer.receive(channel)
-    finally:
-        await layer.group_discard(group_of(project_id), channel)
+    """Yields a function that waits for the next notice about a project.
+
+    Raises:
+        NoNoticesError: Redis does not answer.
+    """
+    async with following(group_of(project_id)) as next_notice:
+        yield next_notice

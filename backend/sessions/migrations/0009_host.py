@@ -1,4 +1,4 @@
-"""The host on which an executor runs, and longer addresses, which name it."""
+"""The host on which an executor runs."""
 
 from __future__ import annotations
 
@@ -8,14 +8,12 @@ from django.db import migrations, models
 class Migration(migrations.Migration):
     dependencies = [("executor_sessions", "0008_warm")]
 
-    # The release before writes no host: the database does, as long as both serve.
+    # The release before writes no host: the database does, as long as both serve. Addresses keep their length:
+    # PostgreSQL refuses statements that servers have prepared when the type of a column changes.
     operations = [
         migrations.AddField(
             model_name="session",
             name="host",
             field=models.CharField(blank=True, db_default="", default="", max_length=270),
-        ),
-        migrations.AlterField(
-            model_name="session", name="address", field=models.CharField(blank=True, max_length=400)
         ),
     ]

@@ -18,6 +18,7 @@ from backend.config.environment import InvalidEnvironmentError, environment
         ("log_level", "loud"),
         ("executor_hosts", '["https://robots.lan"]'),
         ("executor_hosts", '["robots.lan:0"]'),
+        ("executor_hosts", f'["{"r" * 151}"]'),
         ("executor_hosts", '["robots.lan", "Robots.lan:7164"]'),
     ],
 )

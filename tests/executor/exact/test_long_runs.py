@@ -65,8 +65,12 @@ def sample(pid: int) -> Sample:
     family = psutil.Process(pid).children(recursive=True)
     snapshots = [each.pid for each in family if each.name() == SNAPSHOT_NAME]
     pids = [pid, *(each.pid for each in family)]
-    return Sample(
-        len(snapshots),
-        sum(map(private_bytes, snapshots)),
-        sum(psutil.Process(each).memory_full_info().pss for each in pids if psutil.pid_exists(each)),
-    )
+    return Sample(len(snapshots), sum(map(private_bytes, snapshots)), sum(map(shared_bytes, pids)))
+
+
+def shared_bytes(pid: int) -> int:
+    """Returns the proportional memory of a process; 0 if it has ended meanwhile."""
+    try:
+        return int(psutil.Process(pid).memory_full_info().pss)
+    except (psutil.NoSuchProcess, FileNotFoundError):
+        return 0

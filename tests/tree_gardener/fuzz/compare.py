@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from tests.tree_gardener.fuzz.generate import Case, Spec
 
 ROOT = Path(__file__).parents[3]
+LONGEST_S = 300
+# A program with a publisher is followed by clients in real time.
+CASE_S = 5
 
 
 def reference_traces(
@@ -32,7 +35,7 @@ def reference_traces(
             input=pickle.dumps(cases[len(traces) :]),
             capture_output=True,
             cwd=ROOT,
-            timeout=300,
+            timeout=LONGEST_S + CASE_S * len(cases),
             check=False,
         )
         lines = process.stdout.decode().splitlines()

@@ -11,7 +11,7 @@ import { useSessionStore } from '@/store/session/store';
 import { CommandButton } from '@/ui/CommandButton';
 import { useHeldWords } from './words';
 import { heldCommands } from './commands';
-import { TickBackButton } from './TickBackButton';
+import { TickBackButton } from '@/features/run/TickBackButton';
 import classes from './debug.module.css';
 
 /** The banner of a held tree: where and why it is held, and how to continue; nothing while it is not held. */

@@ -1,7 +1,7 @@
 import { Button, Group } from '@mantine/core';
 import { IconHandStop } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { TickBackButton } from '@/features/debug/TickBackButton';
+import { TickBackButton } from '@/features/run/TickBackButton';
 import { openFile } from '@/store/project/navigation';
 import { shownFrame, usePython } from '@/store/python/stop';
 import { useSessionStore } from '@/store/session/store';

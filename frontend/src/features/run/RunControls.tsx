@@ -5,7 +5,7 @@ import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
 import { usePressed } from '@/ui/hooks/usePressed';
-import { TickBackButton } from '@/features/debug/TickBackButton';
+import { TickBackButton } from './TickBackButton';
 import { useRunStore } from '@/store/run/store';
 import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';

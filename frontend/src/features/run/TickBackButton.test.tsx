@@ -6,7 +6,7 @@ import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import '@/i18n/editorTexts';
 import { show, user } from '../../../harness/testing';
-import { registerDebugCommands } from './commands';
+import { registerDebugCommands } from '@/features/debug/commands';
 import { TickBackButton } from './TickBackButton';
 
 let send: MockInstance<typeof connection.send>;

@@ -72,8 +72,8 @@ def tick_back(stage: Stage, data: Struct) -> Step:
     if stage.children.host is None:
         raise StepFailed("live_run", LIVE, LIVE_HINT)
     past = found_run(stage, "")
-    is_spare = _is_spare(stage, past)
-    if not is_spare:
+    is_repeated = _repeats_parent(stage, past)
+    if not is_repeated:
         yield from keep_present(stage)  # it tells all ticks, too
     ticks = (yield from _whole_ticks(stage, past)) - 1
     if ticks < past.reset_ticks:
@@ -81,9 +81,9 @@ def tick_back(stage: Stage, data: Struct) -> Step:
     if past.by_hand_s is not None and ticks > past.by_hand_ticks:
         refuse_by_hand(past, None)
     yield from terminate_application(stage, data)
-    course = replace(past, run=past.parent) if is_spare else past
+    course = replace(past, run=past.parent) if is_repeated else past
     reached = yield from _to(stage, course, course.replay(None, ticks))
-    if is_spare:
+    if is_repeated:
         throw_away(stage, past.run)
     text = f"One tick back, to {reached.t:.2f} s: a step makes this tick again."
     stage.output.emit(messages.Log("manager", "info", text, time=reached.t))
@@ -115,7 +115,7 @@ def refuse_by_hand(past: PastRun, until_s: float | None) -> None:
         raise StepFailed("changed_by_hand", BY_HAND.format(past.by_hand_s), BY_HAND_HINT)
 
 
-def _is_spare(stage: Stage, past: PastRun) -> bool:
+def _repeats_parent(stage: Stage, past: PastRun) -> bool:
     """Returns whether a branch holds nothing that its parent has not, and nobody has marked it."""
     parent = stage.past.find(past.parent) if past.parent else None
     if parent is None or not past.is_part_of(parent):

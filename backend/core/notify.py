@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import logging
 from contextlib import asynccontextmanager
-from typing import TYPE_CHECKING, Any, TypeVar
+from dataclasses import dataclass
+from time import monotonic
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
@@ -15,6 +17,21 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 Result = TypeVar("Result")
+
+
+ANSWER_S: Final = 5.0
+PAUSE_S: Final = 5.0
+"""How long nobody asks Redis after it did not answer: a try that fails leaves a channel in its layer."""
+
+
+@dataclass
+class _Away:
+    """Up to when Redis counts as away, by `time.monotonic`."""
+
+    until_s: float = 0.0
+
+
+_away: Final = _Away()
 
 
 class NoNoticesError(Exception):
@@ -29,11 +46,15 @@ async def following(group: str) -> AsyncIterator[Callable[[], Awaitable[dict[str
         NoNoticesError: Redis does not answer.
     """
     layer = get_channel_layer()
+    if monotonic() < _away.until_s:
+        raise NoNoticesError("notices cannot be followed: Redis did not answer a moment ago")
     try:
-        channel = await _tried_again(layer.new_channel)
-        await _tried_again(lambda: layer.group_add(group, channel))
+        async with asyncio.timeout(ANSWER_S):
+            channel = await _tried_again(layer.new_channel)
+            await _tried_again(lambda: layer.group_add(group, channel))
     except Exception as error:
-        raise NoNoticesError(f"notices cannot be followed: {error}") from error
+        _away.until_s = monotonic() + PAUSE_S
+        raise NoNoticesError(f"notices cannot be followed: {error!r}") from error
     try:
         yield lambda: layer.receive(channel)
     finally:

@@ -118,7 +118,7 @@ class Collector:
         A replay that is wished for meanwhile runs on the head of that cluster.
         """
         if item is None or isinstance(item, Replay):
-            return item is None and self._session.own_cluster and self._begun is not None
+            return item is None and self._session.own_cluster
         if self._session.own_cluster:
             self._begun = self._begun or item.id
             return self._begun != item.id

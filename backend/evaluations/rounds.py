@@ -61,6 +61,8 @@ def one_round() -> None:
         running = {Place(row.project_id, row.user_id): row for row in _sessions()}
         waiting = work.waiting_places()
         somebody_works = work.somebody_waits_for_place()
+        _count_lost(running, waiting)
+        _end_starts(running, waiting)
         _make_room(running, waiting, somebody_works=somebody_works)
         if not somebody_works:
             _give_turns(running, waiting)
@@ -86,6 +88,27 @@ def _sessions() -> Any:
     return Session.objects.filter(kind=SessionKind.EVALUATION, state__in=LIVE_STATES)
 
 
+def _count_lost(running: dict[Place, Session], waiting: dict[Place, datetime]) -> None:
+    """Counts a try for each evaluation whose executor was lost while it worked; `lost` lets it wait again."""
+    for place in waiting.keys() - running.keys():
+        rows = Session.objects.filter(
+            kind=SessionKind.EVALUATION, project=place.project, user=place.user
+        ).order_by("created_at")
+        last, item = rows.last(), work.next_of(place)
+        if last is None or last.state != SessionState.FAILED or not isinstance(item, Evaluation):
+            continue
+        if item.state == JobState.RUNNING:
+            writes.lost(item, last.error)
+
+
+def _end_starts(running: dict[Place, Session], waiting: dict[Place, datetime]) -> None:
+    """Ends sessions that have not started and have nothing left to do, such as after a cancellation."""
+    for place, session in list(running.items()):
+        if session.state != SessionState.READY and place not in waiting:
+            sessions.end_session(session, "Nothing is left to do.")
+            del running[place]
+
+
 def _make_room(
     running: dict[Place, Session], waiting: dict[Place, datetime], *, somebody_works: bool
 ) -> None:
@@ -93,7 +116,10 @@ def _make_room(
     if not running:
         return
     place, longest = min(running.items(), key=lambda item: item[1].created_at)
-    is_late = timezone.now() - longest.created_at > TURN
+    turn = TURN
+    if longest.own_cluster:  # a Ray cluster may take longer to start than a turn lasts
+        turn += timedelta(seconds=session_queries.start_timeout_s(longest))
+    is_late = timezone.now() - longest.created_at > turn
     others = [each for each in waiting if each.user not in {there.user for there in running}]
     is_full = len(running) >= environment().max_evaluations
     if somebody_works or (is_late and is_full and others):

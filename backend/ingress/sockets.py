@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from uuid import UUID
 
 from channels.db import database_sync_to_async
+from django.db import InterfaceError, OperationalError
 
 from backend.accounts import rights
 from backend.accounts.identity import identify
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
 
 log = logging.getLogger(__name__)
+DatabaseUnreachable: Final = (OperationalError, InterfaceError)
 
 PROTOCOL: Final = "bt-studio.v1"
 ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
@@ -171,6 +173,9 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
     except NoNoticesError as error:
         log.warning("%s", error)
         closed = Closed(TRY_AGAIN_LATER, "The server's notices do not work now. Try again in a moment.")
+    except DatabaseUnreachable as error:
+        log.warning("%s", error)
+        closed = Closed(TRY_AGAIN_LATER, "The database does not answer. Try again in a moment.")
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})
@@ -200,13 +205,15 @@ async def _until_forbidden(route: Route, call: Call, scope: WebSocketScope) -> C
             if notice.get("user_id") not in {None, call.user.pk}:
                 continue
             await asyncio.sleep(rights.SETTLE_S)
-            user = await _user(scope)
-            if user is None or user.pk != call.user.pk:
-                return Closed(SIGNED_OUT, "You are signed out.")
             try:
+                user = await _user(scope)
+                if user is None or user.pk != call.user.pk:
+                    return Closed(SIGNED_OUT, "You are signed out.")
                 await database_sync_to_async(route.may)(UUID(call.address[1]), user)
             except StudioError as error:
                 return Closed(FORBIDDEN, error.detail)
+            except DatabaseUnreachable as error:  # robots continue while the database is away
+                log.warning("the rights of a socket are not checked now: %s", error)
 
 
 def _route(routes: Mapping[re.Pattern[str], Route], path: str) -> tuple[re.Match[str], Route] | None:

@@ -216,7 +216,7 @@ def _takes_place(session: Session) -> bool:
         kept = KEPT_PLACES if session.kind == SessionKind.EVALUATION else 0
         if places_left() > kept:
             place = {"state": SessionState.STARTING, "ros_domain_id": _domain_for(session.kind)}
-            return _moved(session, SessionState.QUEUED, **place)
+            return _moved(session, SessionState.QUEUED, used_at=timezone.now(), **place)
     return False
 
 
@@ -252,6 +252,8 @@ def end_session(session: Session, why: str = "") -> Session:
     with _launches_lock:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
+        if session.own_cluster:
+            _end_start(session, why)
         launch.result()
     _look_again(session)  # the executor may have started since the session was looked up
     ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
@@ -268,15 +270,24 @@ def end_session(session: Session, why: str = "") -> Session:
     return session
 
 
+def _end_start(session: Session, why: str) -> None:
+    """Ends the start of a Ray cluster, which would take minutes: it is over when its RayJob is gone."""
+    ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
+    if _moved(session, SessionState.STARTING, **ended):
+        launcher().stop(launcher().state_of(str(session.id)), timeout_s=0)
+
+
 def _await_launch(session: Session) -> None:
     """Waits until the web server that starts this session's executor has ended it again, or has itself ended.
 
     That server sees the end of the session when the executor has started, and ends the executor. During the
     launch it holds a lock of the database, which is released with its connection.
     """
+    if session.own_cluster:
+        launcher().stop(launcher().state_of(str(session.id)), timeout_s=0)  # so that its start ends soon
     # Inside the caller's transaction, others do not see the end of the session yet.
     if connection.vendor == "postgresql" and not connection.in_atomic_block:
-        longest_s = 2 * environment().session_start_timeout_s
+        longest_s = 2 * queries.start_timeout_s(session)
         try:
             with transaction.atomic(), connection.cursor() as cursor:
                 cursor.execute("SELECT set_config('lock_timeout', %s, true)", [f"{longest_s:.0f}s"])
@@ -415,7 +426,7 @@ def end_orphans() -> None:
 def _is_overdue(session: Session) -> bool:
     """Returns whether a session has been starting for so long that no web server can still be at work."""
     longest = timedelta(seconds=2 * queries.start_timeout_s(session))
-    return timezone.now() - session.created_at > longest
+    return timezone.now() - (session.used_at or session.created_at) > longest  # it may have queued
 
 
 def _launch(session: Session) -> None:
@@ -438,14 +449,20 @@ def _launch(session: Session) -> None:
         _moved(session, SessionState.STARTING, state=SessionState.QUEUED, ros_domain_id=None)
     except LaunchError as error:
         log.warning("session %s: %s", session.id, error.detail)
-        _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
+        _start_failed(session, "\n".join(filter(None, (error.detail, error.hint))))
     except Exception:
         log.exception("session %s", session.id)
-        _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
+        _start_failed(session, "The launcher failed; the server's log has the details.")
     finally:
         with _launches_lock:
             _launches.pop(session.id, None)
         connection.close()
+
+
+def _start_failed(session: Session, why: str) -> None:
+    """Stores why a start failed, unless the session was ended meanwhile."""
+    failed = {"state": SessionState.FAILED, "error": why, "ended_at": timezone.now()}
+    _moved(session, SessionState.STARTING, **failed)
 
 
 def _start_and_store(session: Session, spec: Spec) -> None:

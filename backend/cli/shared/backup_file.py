@@ -20,7 +20,7 @@ from django.core import serializers
 from django.core.exceptions import FieldDoesNotExist
 from django.core.management.color import no_style
 from django.core.serializers.json import DjangoJSONEncoder
-from django.db import IntegrityError, connection, transaction
+from django.db import DatabaseError, connection, transaction
 
 from backend import __version__
 from backend.cli.shared.backup_age import applied_migrations, require_readable
@@ -111,7 +111,7 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
             return _load(archive, manifest)
     except (zipfile.BadZipFile, KeyError, TypeError, EOFError, OSError) as error:
         raise BackupError(f"This is no readable backup: {error}.") from error
-    except (serializers.base.DeserializationError, FieldDoesNotExist, IntegrityError) as error:
+    except (serializers.base.DeserializationError, FieldDoesNotExist, DatabaseError) as error:
         raise BackupError(f"The backup does not have the rows of this version: {error}.") from error
 
 

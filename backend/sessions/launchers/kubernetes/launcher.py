@@ -230,8 +230,8 @@ class KubernetesLauncher(Launcher):
 
     def poll(self, state: State) -> int | None:
         """Returns what is known of the pod. While the cluster does not answer, executors count as running."""
-        if self._rayjobs is not None and RAYJOB in state:
-            return self._rayjobs.poll(state[RAYJOB])
+        if RAYJOB in state and "pod" not in state:  # of an evaluation that has started
+            return self._rayjobs.poll(state[RAYJOB]) if self._rayjobs is not None else None
         return self._pods.poll(state.get("pod", ""))
 
     def explain(self, state: State) -> str:
@@ -244,6 +244,8 @@ class KubernetesLauncher(Launcher):
         """Deletes the pod, with time for the manager to end; its secret goes with it. So with a RayJob."""
         if self._rayjobs is not None and RAYJOB in state:
             self._rayjobs.stop(state[RAYJOB], timeout_s=timeout_s)
+        elif RAYJOB in state:
+            log.warning("the RayJob %s stays: this server was started without RayJobs", state[RAYJOB])
         name = state.get("pod")
         if name is None:
             return

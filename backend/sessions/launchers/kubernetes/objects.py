@@ -14,6 +14,9 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any, Final
 
 import httpx2
+import msgspec
+from lightkube.core.decoders import ListMetadata, WatchEvent
+from lightkube.models.meta_v1 import Status
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.kubernetes.bodies import KIND_LABEL
@@ -38,6 +41,10 @@ UNKNOWN_S: Final = 15.0
 """How long an object of which nothing is known counts as running."""
 # An answer that is no JSON is a ValueError, a client that was closed a RuntimeError.
 _BROKEN: Final = (httpx2.HTTPError, OSError, ValueError, RuntimeError)
+
+for _kind in (ListMetadata, Status):
+    msgspec.convert({}, _kind)  # msgspec does not end if two threads meet a type for the first time
+msgspec.json.decode(b'{"type": "ADDED", "object": {}}', type=WatchEvent)
 
 
 class Objects:

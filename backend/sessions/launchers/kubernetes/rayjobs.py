@@ -100,20 +100,24 @@ class RayJobs:
 
     def stop(self, name: str, *, timeout_s: float) -> None:
         """Deletes a RayJob; its Ray cluster, secret and network policy go with it."""
-        if not delete(self._client, RayJob, name, timeout_s):
+        had_ended = is_over(self._jobs.get(name))
+        if not delete(self._client, RayJob, name, timeout_s) or had_ended:
             return
         if not self._jobs.wait_until_gone(name, monotonic() + timeout_s + LAST_GRACE_S):
             log.warning("the RayJob %s does not end", name)
 
     def running(self) -> list[str]:
-        """Returns the ids of the sessions whose RayJobs have not ended, as the cluster says now."""
+        """Returns the ids of the sessions whose RayJobs are there, as the cluster says now.
+
+        Those that have ended count, since nobody else deletes them.
+        """
         try:
             jobs = list(self._client.list(RayJob, labels={ID_LABEL: None}, chunk_size=500))
         except (httpx2.HTTPError, OSError) as error:
             log.warning("the cluster does not list its RayJobs: %s", error)
             return []
-        living = [job.metadata for job in jobs if read_rayjob(job).exit_status is None]
-        return [found.labels[ID_LABEL] for found in living if found and found.labels]
+        found = [job.metadata for job in jobs if job.metadata and not job.metadata.deletionTimestamp]
+        return [each.labels[ID_LABEL] for each in found if each.labels]
 
     def close(self) -> None:
         """Ends the watch over the RayJobs, which stay."""

@@ -43,10 +43,23 @@ it.each<[string, Partial<SessionData>]>([
   ['running', { executor: 'visualization_ready' }],
   ['viewer', { introspection: introspect('viewer') }],
   ['attached', { attached: attached({ controls: true }) }],
-  ['going', { goingBack: 0.3 }],
+  ['going', { executor: 'visualization_ready', goingBack: 0.3 }],
 ])('is not possible, and says why: %s %o', (why, state) => {
   useSessionStore.setState(state);
   expect(whyNoTickBack()).toBe(why);
+});
+
+it('goes back one press after the other', async () => {
+  const waiting: (() => void)[] = [];
+  send.mockImplementation(() => new Promise((resolve) => waiting.push(() => resolve(undefined))));
+  const both = [tickBack(), tickBack()];
+  await vi.waitFor(() => expect(waiting).toHaveLength(1));
+  await Promise.resolve();
+  expect(send).toHaveBeenCalledTimes(1);
+  waiting[0]?.();
+  await vi.waitFor(() => expect(waiting).toHaveLength(2));
+  waiting[1]?.();
+  await Promise.all(both);
 });
 
 it('is of the present, not of the shown past', () => {

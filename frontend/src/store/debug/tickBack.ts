@@ -1,5 +1,5 @@
 import { isLookingBack } from '@/store/moment/store';
-import { isHeld, isPaused, reported } from '@/store/run/commands';
+import { afterSteps, isHeld, isPaused, reported } from '@/store/run/commands';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 
@@ -12,13 +12,13 @@ export function whyNoTickBack(): NoTickBack | null {
   if (isLookingBack()) return 'past';
   if (introspection?.role === 'viewer') return 'viewer';
   if (attached) return 'attached';
+  if (goingBack !== null) return 'going'; // it has no program meanwhile
   if (!isPaused() && !isHeld()) return 'running';
-  if (goingBack !== null) return 'going';
   return liveRuns.includes(repeatableRuns.at(-1) ?? '') ? 'live' : null;
 }
 
 /** Whether the present run can go one tick back. */
 export const canTickBack = (): boolean => whyNoTickBack() === null;
 
-/** Takes world and program to the begin of the last whole tick, where they are paused. */
-export const tickBack = (): Promise<void> => reported(send('tick_back', {}));
+/** Takes world and program to the begin of the last whole tick, where they are paused; one press after the other. */
+export const tickBack = (): Promise<void> => reported(afterSteps(() => send('tick_back', {})));

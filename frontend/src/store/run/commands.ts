@@ -38,7 +38,7 @@ export const hasSession = () => useSessionStore.getState().connection !== 'off';
 let steps: Promise<unknown> = Promise.resolve();
 
 /** Steps after the steps that are under way. */
-function afterSteps(doing: () => Promise<unknown>): Promise<unknown> {
+export function afterSteps(doing: () => Promise<unknown>): Promise<unknown> {
   const done = steps.then(doing);
   steps = done.catch(() => undefined);
   return done;

@@ -41,6 +41,7 @@ def _ask(  # noqa: PLR0913 - one question
     patience_s: float = ANSWER_S,
     then: Callable[[], None] | None = None,
     refused: Callable[[], None] | None = None,
+    late: Callable[[], None] | None = None,
 ) -> None:
     """Forwards a command to a child; the child's answer becomes the reply (`Question`).
 
@@ -67,6 +68,7 @@ def _ask(  # noqa: PLR0913 - one question
         patience_s=patience_s,
         then=then,
         refused=refused,
+        late=late,
     )
     stage.children.ask(kind, message, token)
 
@@ -95,7 +97,7 @@ def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpo
     """Keeps them for this run and those to come, also where the application dies before it takes them."""
     hold = stage.hold
     hold.breakpoints = data
-    application, message = _running(stage), child_messages.SetBreakpoints(wanted=data)
+    application = _running(stage)
 
     def note() -> None:
         hold.given = data
@@ -104,12 +106,21 @@ def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpo
         if hold.breakpoints is data:
             hold.breakpoints = hold.given
 
+    def tell() -> None:
+        stage.children.tell_application(child_messages.SetBreakpoints(wanted=data))
+
+    def late() -> None:
+        note()
+        if hold.breakpoints is data and stage.children.get("application") is application:
+            tell()  # it takes the good ones, and names the others in the log
+
     if application is not None and not (stage.python.is_stopped or application.is_hanging):
-        _ask(stage, event, "application", message, then=note, refused=undo)
+        message = child_messages.SetBreakpoints(wanted=data)
+        _ask(stage, event, "application", message, then=note, refused=undo, late=late)
         return
     if application is not None:  # it takes them when it continues
         note()
-        stage.children.tell_application(message)
+        tell()
     stage.output.send(event.client, messages.Ack(), event.request)
 
 

@@ -27,8 +27,9 @@ class Question:
 
     Attributes:
         then: is called if the command succeeds.
-        refused: is called if the child refuses it. With it the session keeps what is asked, so that the
-            command also succeeds where the child does not answer.
+        refused: is called if the child refuses it.
+        late: is called if the child does not answer. With it the session keeps what is asked, so that the
+            command also succeeds then.
     """
 
     client: str
@@ -38,6 +39,7 @@ class Question:
     topic: str = ""
     then: Callable[[], None] | None = None
     refused: Callable[[], None] | None = None
+    late: Callable[[], None] | None = None
 
 
 class Questions:
@@ -63,11 +65,12 @@ class Questions:
         patience_s: float = ANSWER_S,
         then: Callable[[], None] | None = None,
         refused: Callable[[], None] | None = None,
+        late: Callable[[], None] | None = None,
     ) -> str:
         """Stores a question; returns its token."""
         token = self.token()
         until_s = now_s + patience_s
-        self._questions[token] = Question(client, request, child, until_s, topic, then, refused)
+        self._questions[token] = Question(client, request, child, until_s, topic, then, refused, late)
         return token
 
     def asker(self, token: str | None) -> str | None:
@@ -114,6 +117,8 @@ def answer(stage: Stage, question: Question, error: messages.Error | None) -> No
 def answer_late(stage: Stage, questions: list[Question], code: str, reason: str, why: str = "") -> None:
     """Replies to the clients of questions that their child did not answer: with an error, if it matters."""
     for question in questions:
-        is_kept = question.refused is not None
-        error = messages.Error(code, why or f"The {question.child[0]} {reason}.")
-        answer(stage, question, None if is_kept else error)
+        if question.late is not None:
+            question.late()
+            stage.output.send(question.client, messages.Ack(), question.request)
+            continue
+        answer(stage, question, messages.Error(code, why or f"The {question.child[0]} {reason}."))

@@ -56,13 +56,17 @@ class Program:
         return next(found, "")
 
     def text_of(self, path: str, most_bytes: int) -> str | None:
-        """Returns the text of such a file; None if it is longer, or is not there any more."""
+        """Returns the text of such a file; None if it is longer, or is not there any more.
+
+        What counts is the size of the text: a byte that is not UTF-8 becomes a sign of three bytes.
+        """
         name = self.file_of(path).removeprefix(f"{PACKAGE}/").removesuffix(".py")
         if path.startswith(f"{PACKAGE}/") and name in self._sources:
             data = self._sources[name].encode(errors="replace")
         else:
             data = _head(path, most_bytes + 1)
-        return data.decode(errors="replace") if 0 < len(data) <= most_bytes else None
+        text = data.decode(errors="replace")
+        return text if 0 < len(text.encode()) <= most_bytes else None
 
     def load(self) -> Tree:
         """Builds the tree.
@@ -133,7 +137,7 @@ def _head(path: str, most_bytes: int) -> bytes:
         if not Path(path).is_file():  # a pipe would wait
             return b""
         with Path(path).open("rb") as file:
-            return file.read(most_bytes)
+            return file.read(max(0, most_bytes))
     except (OSError, ValueError):
         return b""
 

@@ -62,7 +62,7 @@ class Hold:
     def switch_off(self) -> None:
         """Switches all breakpoints off, until a client sets them again."""
         if self.breakpoints is not None:
-            self.breakpoints = replace(self.breakpoints, on=False)
+            self.breakpoints = self.given = replace(self.breakpoints, on=False)
 
 
 def held(stage: Stage, child: Child, message: child_messages.Held) -> None:

@@ -72,6 +72,8 @@ class PythonDebugger:
         self._stop: dict[str, Any] = {}
         self._stepping_from: int | None = None
         self._last_change = ""
+        self._counts_after: int | None = None
+        """A beat after so many says how many ticks were whole before the first change by hand."""
 
     # --- the client -------------------------------------------------------------------------------
 
@@ -120,6 +122,7 @@ class PythonDebugger:
             application = self._stage.children.get("application")
             is_step = request.command in STEPS and application is not None
             self._stepping_from = application.vitals.turns if is_step and application is not None else None
+            self._counts_after = None  # it may make ticks before it says that it continues
         self._follow_breakpoints(request)
         change = made_by_hand(request)
         if change:
@@ -147,8 +150,9 @@ class PythonDebugger:
         text = f"Changed by hand in Python: {change[:LONGEST_CHANGE]}"
         stage.output.emit(messages.Log("manager", "warning", text, time=stage.sim_time_s))
         application = stage.children.get("application")
-        whole = max(0, application.vitals.ticks - 1) if application is not None else 0
-        stage.past.changed_by_hand(stage.sim_time_s, whole)
+        whole = _whole_ticks(application) if application is not None else 0
+        if stage.past.changed_by_hand(stage.sim_time_s, whole) and application is not None:
+            self._counts_after = application.vitals.beats  # the last one may be older than this stop
         if text == self._last_change:
             return
         self._last_change = text
@@ -315,12 +319,16 @@ class PythonDebugger:
 
     def _step_on(self) -> None:
         """The program makes a step; the world waits until the step or the tick is over."""
-        self.is_stopped = False
+        self.is_stopped, self._counts_after = False, None
         if (application := self._stage.children.get("application")) is not None:
             application.is_suspended = False
 
     def beat(self, application: Child) -> None:
         """Notes a sign of life: a step that has left the tick lets the world continue."""
+        after = self._counts_after
+        if after is not None and self.is_stopped and application.vitals.beats > after:
+            self._counts_after = None
+            self._stage.past.counted_by_hand(_whole_ticks(application))
         if self._stepping_from is not None and application.vitals.turns != self._stepping_from:
             self._stepping_from = None
             self._go_on(has_stepped=True)
@@ -330,7 +338,7 @@ class PythonDebugger:
         if not (self.is_stopped or has_stepped or self._stepping_from is not None):
             return
         stage, application = self._stage, self._stage.children.get("application")
-        self.is_stopped, self._stepping_from = False, None
+        self.is_stopped, self._stepping_from, self._counts_after = False, None, None
         if application is not None:
             application.is_suspended = False
             if application.is_holding or application.is_stopping:
@@ -344,3 +352,8 @@ class PythonDebugger:
             return
         stage.children.tell_world(child_messages.Resume())
         stage.enter(State.APPLICATION_RUNNING)
+
+
+def _whole_ticks(application: Child) -> int:
+    """Returns how many ticks a run had ended at its last sign of life within a tick."""
+    return max(0, application.vitals.ticks - 1)

@@ -45,6 +45,9 @@ BY_HAND: Final = (
     "from there on the run cannot be made again."
 )
 BY_HAND_HINT: Final = "Choose an earlier moment, or press Run."
+BY_HAND_BEFORE: Final = (
+    "The program was changed by hand before this run's world was reset: it cannot be made again."
+)
 LIVE: Final = "A live run has no way back by one tick: its world and its program are not one."
 LIVE_HINT: Final = "Make the run exact in the menu beside Run, and press Run."
 FIRST: Final = "This is the begin of the run: there is no tick before."
@@ -72,8 +75,7 @@ def tick_back(stage: Stage, data: Struct) -> Step:
     if stage.children.host is None:
         raise StepFailed("live_run", LIVE, LIVE_HINT)
     past = found_run(stage, "")
-    is_repeated = _repeats_parent(stage, past)
-    if not is_repeated:
+    if not _repeats_parent(stage, past, past.ticks):
         yield from keep_present(stage)  # it tells all ticks, too
     ticks = (yield from _whole_ticks(stage, past)) - 1
     if ticks < past.reset_ticks:
@@ -81,8 +83,10 @@ def tick_back(stage: Stage, data: Struct) -> Step:
     if past.by_hand_s is not None and ticks > past.by_hand_ticks:
         refuse_by_hand(past, None)
     yield from terminate_application(stage, data)
+    is_repeated = _repeats_parent(stage, past, ticks + 1)  # the session has all its ticks now
     course = replace(past, run=past.parent) if is_repeated else past
-    reached = yield from _to(stage, course, course.replay(None, ticks))
+    instead_of = past.run if is_repeated else ""
+    reached = yield from _to(stage, course, course.replay(None, ticks), instead_of)
     if is_repeated:
         throw_away(stage, past.run)
     text = f"One tick back, to {reached.t:.2f} s: a step makes this tick again."
@@ -112,13 +116,15 @@ def refuse_by_hand(past: PastRun, until_s: float | None) -> None:
         StepFailed: it is one.
     """
     if past.by_hand_s is not None and (until_s is None or until_s >= past.by_hand_s):
+        if past.by_hand_s == 0 and past.resets:
+            raise StepFailed("changed_by_hand", BY_HAND_BEFORE, "Press Run.")
         raise StepFailed("changed_by_hand", BY_HAND.format(past.by_hand_s), BY_HAND_HINT)
 
 
-def _repeats_parent(stage: Stage, past: PastRun) -> bool:
-    """Returns whether a branch holds nothing that its parent has not, and nobody has marked it."""
+def _repeats_parent(stage: Stage, past: PastRun, whole: int) -> bool:
+    """Returns whether a branch has in its whole ticks what its parent has, and nobody has marked it."""
     parent = stage.past.find(past.parent) if past.parent else None
-    if parent is None or not past.is_part_of(parent):
+    if parent is None or not past.is_part_of(parent, whole):
         return False
     is_named = any(branch.run == past.run and branch.name for branch in stage.mirror.branches)
     return not is_named and all(flag.run != past.run for flag in stage.mirror.flags.values())
@@ -135,20 +141,20 @@ def _whole_ticks(stage: Stage, past: PastRun) -> Generator[Wait, Any, int]:
     return vitals.ticks - 1
 
 
-def _to(stage: Stage, past: PastRun, replay: Replay) -> Answered[WentBack]:
-    """Takes a run back, and says how far it is on its way."""
+def _to(stage: Stage, past: PastRun, replay: Replay, instead_of: str = "") -> Answered[WentBack]:
+    """Takes a run back, and says how far it is on its way; the branch may take the place of another."""
     stage.output.emit(messages.GoingBack(0.0))
     try:
-        return (yield from _from_snapshot(stage, past, replay))
+        return (yield from _from_snapshot(stage, past, replay, instead_of))
     finally:
         stage.output.emit(messages.GoingBack(1.0))
 
 
-def _from_snapshot(stage: Stage, past: PastRun, replay: Replay) -> Answered[WentBack]:
+def _from_snapshot(stage: Stage, past: PastRun, replay: Replay, instead_of: str) -> Answered[WentBack]:
     """Makes a run again from its newest snapshot before the moment; from its begin where that fails."""
     snapshot = stage.snapshots.newest(past, replay.until_s, ticks_of(replay))
     if snapshot is None:
-        return (yield from _make_again(stage, past, replay))
+        return (yield from _make_again(stage, past, replay, instead_of))
     _prepare(stage, past)
     application = stage.children.wake(snapshot)
     stage.hold.profile_given = None
@@ -163,12 +169,14 @@ def _from_snapshot(stage: Stage, past: PastRun, replay: Replay) -> Answered[Went
             raise
         text = f"A snapshot cannot be used: {failure} The run is made again from its begin."
         stage.output.emit(messages.Log("manager", "info", text))
-        return (yield from _make_again(stage, past, replay))
-    _take_over(stage, past, application, reached)
+        return (yield from _make_again(stage, past, replay, instead_of))
+    _take_over(stage, past, application, reached, instead_of)
     return reached
 
 
-def _make_again(stage: Stage, past: PastRun, replay: Replay, tries: int = 2) -> Answered[WentBack]:
+def _make_again(
+    stage: Stage, past: PastRun, replay: Replay, instead_of: str, tries: int = 2
+) -> Answered[WentBack]:
     """Makes a run again in a process of its own, and gives it the world; replaces a dead spare, once."""
     application = _start(stage, past, replay)
     try:
@@ -177,10 +185,10 @@ def _make_again(stage: Stage, past: PastRun, replay: Replay, tries: int = 2) -> 
         if stage.children.get("application") is application:
             stage.children.drop("application")
         if tries > 1 and is_spare_lost(application, failure):
-            return (yield from _make_again(stage, past, replay, tries - 1))
+            return (yield from _make_again(stage, past, replay, instead_of, tries - 1))
         stage.children.replenish()
         raise
-    _take_over(stage, past, application, reached)
+    _take_over(stage, past, application, reached, instead_of)
     return reached
 
 
@@ -226,9 +234,9 @@ def _arrived(stage: Stage, application: Child, silent_s: float = SILENT_S) -> An
     return reached
 
 
-def _take_over(stage: Stage, past: PastRun, application: Child, reached: WentBack) -> None:
+def _take_over(stage: Stage, past: PastRun, application: Child, reached: WentBack, instead_of: str) -> None:
     """Gives the branch the world, its views, and a recording; it stays paused."""
-    stage.past.branch(past, reached)
+    stage.past.branch(past, reached, instead_of)
     stage.mirror.tick_hz = reached.tick_hz
     stage.sim_time_s = reached.t
     host(stage, application)

@@ -98,14 +98,18 @@ class PastRun:
         prints = bytes(self.fingerprints[: most * FINGERPRINT_BYTES])
         return Replay(list(self.inputs), prints, until_s, self.resets)
 
-    def is_part_of(self, parent: PastRun) -> bool:
-        """Returns whether this branch is as its parent was; at what the debugger holds does not count."""
-        if self.by_hand_s is not None or not parent.fingerprints.startswith(self.fingerprints):
+    def is_part_of(self, parent: PastRun, ticks: int) -> bool:
+        """Returns whether this branch is as its parent was, in its first ticks.
+
+        At what the debugger holds does not count.
+        """
+        prints = self.fingerprints[: ticks * FINGERPRINT_BYTES]
+        if self.by_hand_s is not None or not parent.fingerprints.startswith(prints):
             return False
         pairs = zip(self.inputs, parent.inputs, strict=False)
         at = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))  # most need no second look
         own, others = _effective(self.inputs[at:]), _effective(parent.inputs[at:])
-        return others[: len(own)] == own and all(each.tick >= self.ticks for each in others[len(own) :])
+        return others[: len(own)] == own and all(each.tick >= ticks for each in others[len(own) :])
 
     def enter(self, entered: Entered) -> None:
         """Takes something that came from outside."""
@@ -187,8 +191,10 @@ class PastRuns:
             begun = replace(self._runs[-1].copy(), run=run, parent="")
             self._add(begun if begun.by_hand_s is None else replace(begun, by_hand_s=0.0))
 
-    def branch(self, run: PastRun, reached: WentBack) -> None:
-        """Adds a run that continues another one from a moment."""
+    def branch(self, run: PastRun, reached: WentBack, instead_of: str = "") -> None:
+        """Adds a run that continues another one from a moment; it may take the place of a third."""
+        if instead_of:
+            self.drop(instead_of)
         self._add(replace(run.until(reached), run="", parent=run.run))
 
     def changed(self, t_s: float, folder: str) -> None:
@@ -199,10 +205,21 @@ class PastRuns:
             if len(run.folders) > MOST_FOLDERS:
                 run.refusal, run.folders, run.changes = TOO_MANY_CHANGES, (), ()
 
-    def changed_by_hand(self, t_s: float, ticks: int) -> None:
-        """Notes that the debugger has changed the program of the present run, after so many whole ticks."""
-        if self._runs and (run := self._runs[-1]).by_hand_s is None:
-            run.by_hand_s, run.by_hand_ticks = t_s, ticks
+    def changed_by_hand(self, t_s: float, ticks: int) -> bool:
+        """Notes that the debugger has changed the program of the present run, after so many whole ticks.
+
+        Returns:
+            whether it is the first change of this run.
+        """
+        if not self._runs or (run := self._runs[-1]).by_hand_s is not None:
+            return False
+        run.by_hand_s, run.by_hand_ticks = t_s, ticks
+        return True
+
+    def counted_by_hand(self, ticks: int) -> None:
+        """Notes that more ticks of the present run were whole before its first change by hand."""
+        if self._runs and (run := self._runs[-1]).by_hand_s is not None:
+            run.by_hand_ticks = max(run.by_hand_ticks, ticks)
 
     def forget(self) -> None:
         """Forgets all runs: the world in which they were is gone."""

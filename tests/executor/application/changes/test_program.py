@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from pathlib import Path
@@ -104,6 +105,34 @@ def test_files_have_the_names_and_texts_of_the_project(program, tmp_path: Path):
     change.undo()
     assert running.file_of(str(tmp_path / "2/lib/x.py")) == ""
     assert running.text_of("actions/Other.py", 1000) == ENDS.replace("class Act(", "class Other(")
+
+
+def test_bytes_that_are_not_utf_8_count_as_what_is_shown_for_them(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    file = tmp_path / "1/odd.py"
+    file.write_bytes(b"\xff" * 100)
+    assert running.text_of(str(file), 299) is None
+    assert running.text_of(str(file), 300) == "\N{REPLACEMENT CHARACTER}" * 100
+    for no_room in (0, -1, -1000):
+        assert running.text_of(str(file), no_room) is None
+        assert running.text_of("actions/Act.py", no_room) is None
+
+
+def test_no_more_of_a_file_is_read_than_there_is_room_for(program, tmp_path: Path, monkeypatch):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    file = tmp_path / "1/long.py"
+    file.write_bytes(b"x" * 100)
+    sizes = []
+
+    class Opened(io.BytesIO):
+        def read(self, size: int | None = -1) -> bytes:
+            sizes.append(size)
+            return super().read(size)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "open", lambda path, _mode: Opened(b"x" * 100))
+        assert [running.text_of(str(file), room) for room in (-1000, -1, 0, 7)] == [None] * 4
+    assert sizes == [0, 0, 1, 8]
 
 
 def test_a_file_that_is_gone_or_no_file_has_no_text(program, tmp_path: Path):

@@ -180,6 +180,60 @@ def test_breakpoints_that_are_taken_late_are_kept() -> None:
     assert begun_with(play) == ["n1"]
 
 
+def late_breakpoints() -> tuple[Play, SetBreakpoints]:
+    """Returns a run that did not answer breakpoints in time, and its question."""
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    given = play.command("set_breakpoints")
+    [asked] = messages_of(play, SetBreakpoints)
+    assert asked.request is not None
+    play.later(6.0)
+    assert play.reply(given) == "ack"
+    return play, asked
+
+
+def test_breakpoints_that_are_refused_late_are_given_once_more_without_a_question() -> None:
+    play, asked = late_breakpoints()
+    play.child_says(
+        "application", "answer", request=asked.request, error={"code": "bad_breakpoint", "message": "-"}
+    )
+    first, again = messages_of(play, SetBreakpoints)
+    assert (again.request, again.wanted) == (None, first.wanted), "it takes the good ones, and names the bad"
+
+
+@pytest.mark.parametrize("change", ["others are set", "the application dies", "the hold has ended"])
+def test_breakpoints_that_are_late_are_not_given_once_more_where_they_are_no_longer_wanted(change) -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    play.command("set_breakpoints")
+    if change == "others are set":
+        play.later(4.0)
+        play.command("set_breakpoints", breakpoints=[])
+    elif change == "the hold has ended":
+        play.session.hold.switch_off()
+    else:
+        play.child_dies("application")
+    play.later(2.0)
+    assert all(each.request is not None for each in messages_of(play, SetBreakpoints))
+
+
+def test_breakpoints_that_are_refused_after_a_hold_has_ended_switch_nothing_on() -> None:
+    play = held()
+    play.command("set_breakpoints")
+    play.later(play.session.about.hold_limit_s + 1)
+    assert play.state is State.APPLICATION_RUNNING
+    play.obedient = False
+    wrong = play.command("set_breakpoints", breakpoints=[{"tree_id": "Main", "node_id": "n2"}])
+    asked = messages_of(play, SetBreakpoints)[-1].request
+    play.child_says("application", "answer", request=asked, error={"code": "bad_breakpoint", "message": "-"})
+    assert play.reply(wrong) == "bad_breakpoint"
+    kept = play.session.hold.breakpoints
+    assert kept is not None
+    assert ([each.node_id for each in kept.breakpoints], kept.on) == (["n1"], False)
+
+
 def test_breakpoints_that_the_tree_refuses_leave_those_before() -> None:
     play = Play()
     play.climb(State.APPLICATION_RUNNING)

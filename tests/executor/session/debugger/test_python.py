@@ -292,6 +292,27 @@ def test_each_kind_of_change_in_python_ends_the_way_back(
     assert len(again.replay.fingerprints) == 7 * 8, "the eighth tick is the changed one"
 
 
+@pytest.mark.parametrize("goes_on", ["", "continue", "next"])
+def test_the_first_beat_after_a_change_says_which_ticks_were_whole_before(goes_on: str):
+    play = Debugged()
+    assert play.reply(play.command("run", **EXACT)) == "ack"
+    play.ask("initialize")
+    play.adapter_tells("initialized")
+    play.ask("configurationDone")
+    play.child_says("application", "beat", turns=7, ticks=8)
+    play.stop()
+    assert play.ask("evaluate", expression="len(self.path)", frameId=1, context="watch") == "ack"
+    run = play.session.past.find("")
+    assert run is not None
+    play.child_says("application", "log", level="info", text="its last words before the stop")
+    assert run.by_hand_ticks == 7, "the last beat is older than the stop"
+    if goes_on:
+        play.ask(goes_on, threadId=1)
+    for ticks in (11, 15):
+        play.child_says("application", "beat", turns=7, ticks=ticks)
+        assert run.by_hand_ticks == (7 if goes_on else 10)
+
+
 def test_a_program_that_runs_evaluates_nothing():
     play = Debugged()
     play.begin()

@@ -84,6 +84,43 @@ def test_a_branch_has_what_was_before_its_moment() -> None:
     assert runs.find("") is branch
 
 
+def test_a_branch_that_takes_the_place_of_another_pushes_no_run_out() -> None:
+    runs = PastRuns()
+    for number in range(MOST_RUNS):
+        runs.begin(start())
+        runs.name(str(number))
+    parent = runs.find("0")
+    assert parent is not None
+    runs.branch(parent, WentBack(0.0, 0, 0, 0, 20.0), instead_of=str(MOST_RUNS - 1))
+    runs.name("branch")
+    assert runs.names == [*map(str, range(MOST_RUNS - 1)), "branch"]
+    runs.branch(parent, WentBack(0.0, 0, 0, 0, 20.0))
+    assert runs.find("0") is None
+
+
+@pytest.mark.parametrize(("ticks", "is_part"), [(0, True), (2, True), (3, False)])
+def test_a_branch_is_a_part_of_its_parent_in_its_first_ticks(ticks: int, is_part: bool) -> None:
+    run = PastRun(start(), fingerprints=bytearray(b"1" * 8 + b"2" * 8 + b"3" * 8))
+    parent = PastRun(start(), fingerprints=bytearray(b"1" * 8 + b"2" * 8))
+    assert run.is_part_of(parent, ticks) is is_part
+
+
+def test_only_the_first_change_by_hand_counts_and_its_ticks_only_grow() -> None:
+    runs = PastRuns()
+    assert not runs.changed_by_hand(0.5, 3)
+    runs.counted_by_hand(3)
+    runs.begin(start())
+    runs.counted_by_hand(3)
+    run = runs.find("")
+    assert run is not None
+    assert run.by_hand_ticks == 0
+    assert runs.changed_by_hand(0.5, 7)
+    assert not runs.changed_by_hand(0.9, 9)
+    for ticks in (8, 7):
+        runs.counted_by_hand(ticks)
+        assert (run.by_hand_s, run.by_hand_ticks) == (0.5, 8)
+
+
 def test_a_reset_begins_another_recording_of_the_same_run() -> None:
     runs = PastRuns()
     runs.begin(start())

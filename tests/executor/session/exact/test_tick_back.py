@@ -9,8 +9,9 @@ import pytest
 
 from executor import child_messages, messages
 from executor.child_messages import Beat
-from executor.session.events import ChildSaid, Send
-from executor.session.exact.going_back import FIRST, LIVE, RESET
+from executor.session.events import ChildSaid, RecordingWanted, Send
+from executor.session.exact.going_back import BY_HAND_BEFORE, FIRST, LIVE, RESET
+from executor.session.exact.past import MOST_RUNS
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal
 from tests.executor.session.debugger.test_python import Debugged
 from tests.executor.session.exact.test_going_back import TELEOP, recorded
@@ -90,14 +91,20 @@ def test_a_held_run_goes_to_the_begin_of_the_tick_before_the_held_one() -> None:
     assert play.reply(play.command("step")) == "ack"
 
 
-def test_a_run_that_stands_at_a_line_of_python_says_with_its_next_beat_in_which_tick() -> None:
+def debugged() -> Debugged:
+    """Returns an exact run with the Python debugger, that has reported one tick."""
     play = Debugged()
+    play.happens(RecordingWanted("/records"))
     play.command("run", **RUN)
     assert play.ask("initialize") == "ack"
     play.adapter_tells("initialized")
     assert play.ask("configurationDone") == "ack"
     play.child_says("application", "fingerprints", data=TICK)
-    play.stop()
+    return play
+
+
+def back_from_python(play: Debugged, last_words: bytes) -> None:
+    """Takes a run that stands at a line of its fourth tick one tick back."""
     request = play.command("tick_back")
     assert play.reply(request) is None
     assert play.state is State.HELD
@@ -105,12 +112,44 @@ def test_a_run_that_stands_at_a_line_of_python_says_with_its_next_beat_in_which_
     play.obedient = False
     play.happens(ChildSaid("application", number, Beat(7, ticks=4)))
     assert "stop" in play.told("application")
-    play.child_says("application", "fingerprints", data=TICK * 4)  # its last words: two ticks more
+    play.child_says("application", "fingerprints", data=last_words)
     play.obedient = True
     play.child_dies("application", "ended with exit code 0")
     assert play.reply(request) == "ack"
     assert started(play)[-1].replay.fingerprints == TICK * 2
     assert play.state is State.PAUSED
+
+
+def test_a_run_that_stands_at_a_line_of_python_says_with_its_next_beat_in_which_tick() -> None:
+    play = debugged()
+    play.stop()
+    back_from_python(play, TICK * 4)  # two ticks more than were whole
+
+
+@pytest.mark.parametrize(("parent_ticks", "stays"), [(2, True), (3, False)])
+def test_a_branch_stays_if_its_last_words_tell_whole_ticks_of_its_own(parent_ticks: int, stays: bool) -> None:
+    play = debugged()
+    play.child_says("application", "fingerprints", data=TICK * (parent_ticks - 1))
+    assert play.reply(play.command("pause")) == "ack"
+    back(play)
+    branch = play.session.recording.run
+    play.adapter_tells("initialized")
+    assert play.ask("configurationDone") == "ack"
+    assert play.reply(play.command("resume")) == "ack"
+    play.stop()
+    assert play.session.past.find("").ticks == parent_ticks - 1, (
+        "it repeats its parent, as far as it has reported"
+    )
+    back_from_python(play, TICK * 3)
+    assert (branch in runs(play)) is stays
+
+
+def test_a_watch_that_calls_at_the_stop_leaves_the_way_back_by_one_tick() -> None:
+    play = debugged()
+    play.child_says("application", "beat", turns=7, ticks=1)  # older than the stop
+    play.stop()
+    assert play.ask("evaluate", expression="len(self.path)", frameId=1, context="watch") == "ack"
+    back_from_python(play, TICK * 2)
 
 
 def test_presses_lead_further_back_to_the_begin_and_leave_one_branch() -> None:
@@ -122,6 +161,20 @@ def test_presses_lead_further_back_to_the_begin_and_leave_one_branch() -> None:
         assert (branch.parent, branch.run) == (first, play.session.recording.run)
         assert runs(play) == [first, branch.run]
     assert refusal(play) == ("first_tick", FIRST)
+
+
+def test_a_branch_that_is_thrown_away_makes_room_before_a_run_is_pushed_out() -> None:
+    play = recorded()
+    for _ in range(MOST_RUNS - 2):
+        assert play.reply(play.command("run", **RUN)) == "ack"
+    play.child_says("application", "fingerprints", data=TICK * 3)
+    play.command("pause")
+    back(play)
+    kept = runs(play)
+    assert len(kept) == MOST_RUNS
+    back(play)
+    assert runs(play) == [*kept[:-1], play.session.recording.run]
+    assert kept[-1] not in runs(play)
 
 
 def test_steps_forth_and_back_leave_one_branch_though_breakpoints_are_set() -> None:
@@ -216,6 +269,19 @@ def test_a_change_by_hand_is_not_passed_by_unless_it_is_undone() -> None:
     play.session.past.changed_by_hand(0.15, 2)
     assert back(play).fingerprints == TICK * 2
     assert play.session.past.find("").by_hand_s is None
+
+
+def test_a_change_by_hand_before_a_reset_is_named_so() -> None:
+    play = paused()
+    play.session.past.changed_by_hand(0.15, 2)
+    play.command("reset_world")
+    entered(play, 3, msgspec.msgpack.encode(child_messages.ForWorld(child_messages.Reset())))
+    request = play.command("go_back", t=0.1)
+    (error,) = [e.payload for e in play.effects if isinstance(e, Send) and e.request == request]
+    assert error == messages.Error("changed_by_hand", BY_HAND_BEFORE, "Press Run.")
+    stepped(play)
+    stepped(play)
+    assert refusal(play) == ("changed_by_hand", BY_HAND_BEFORE)
 
 
 @pytest.mark.parametrize("state", list(State))

@@ -7,6 +7,7 @@ from datetime import timedelta
 import pytest
 from django.utils import timezone
 
+from backend.config.environment import environment
 from backend.evaluations import rounds, writes
 from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation
@@ -163,3 +164,41 @@ def test_a_replay_needs_no_ray_cluster(people, settings_of):
     writes.ask_replay(people.project.id, found.id, found.revision, 0, acting_user=people.owner.user)
     rounds.one_round()
     assert [session.own_cluster for session in live()] == [False]
+
+
+def test_a_turn_begins_when_a_ray_cluster_may_have_started(people, settings_of):
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    first = wish(people)
+    begin(first)
+    mine = session_for(people)
+    wish(people, "editor")
+    late = timezone.now() - rounds.TURN - timedelta(seconds=1)
+    Session.objects.filter(id=mine.id).update(created_at=late, own_cluster=True)
+    rounds.one_round()
+    assert live() == [mine]
+    started = timedelta(seconds=environment().rayjob_start_timeout_s)
+    Session.objects.filter(id=mine.id).update(created_at=late - started)
+    rounds.one_round()
+    assert [each.user for each in live()] == [people.editor.user]
+
+
+def test_an_executor_that_is_lost_at_work_counts_as_a_try_once(people):
+    first = wish(people)
+    begin(first)
+    lost = session_for(people)
+    Session.objects.filter(id=lost.id).update(state="failed", error="It needed too much memory.")
+    rounds.one_round()
+    first.refresh_from_db()
+    assert (first.tries, first.state) == (1, "waiting")
+    rounds.one_round()
+    first.refresh_from_db()
+    assert first.tries == 1
+
+
+def test_a_start_that_nobody_wants_any_more_is_ended(people):
+    first = wish(people)
+    mine = session_for(people, state="starting")
+    writes.cancel(people.project.id, first.id, acting_user=people.owner.user)
+    rounds.one_round()
+    mine.refresh_from_db()
+    assert (mine.state, mine.error) == ("ended", "Nothing is left to do.")

@@ -256,8 +256,7 @@ def end_session(session: Session, why: str = "") -> Session:
             _end_start(session, why)
         launch.result()
     _look_again(session)  # the executor may have started since the session was looked up
-    ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
-    if launch is None and _moved(session, SessionState.STARTING, **ended):
+    if launch is None and _moved(session, SessionState.STARTING, **_over(SessionState.ENDED, why)):
         _await_launch(session)
         return session
     _look_again(session)
@@ -272,8 +271,7 @@ def end_session(session: Session, why: str = "") -> Session:
 
 def _end_start(session: Session, why: str) -> None:
     """Ends the start of a Ray cluster, which would take minutes: it is over when its RayJob is gone."""
-    ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
-    if _moved(session, SessionState.STARTING, **ended):
+    if _moved(session, SessionState.STARTING, **_over(SessionState.ENDED, why)):
         launcher().stop(launcher().state_of(str(session.id)), timeout_s=0)
 
 
@@ -461,8 +459,12 @@ def _launch(session: Session) -> None:
 
 def _start_failed(session: Session, why: str) -> None:
     """Stores why a start failed, unless the session was ended meanwhile."""
-    failed = {"state": SessionState.FAILED, "error": why, "ended_at": timezone.now()}
-    _moved(session, SessionState.STARTING, **failed)
+    _moved(session, SessionState.STARTING, **_over(SessionState.FAILED, why))
+
+
+def _over(state: SessionState, why: str) -> dict[str, Any]:
+    """Returns the fields of a session that ends now."""
+    return {"state": state, "error": why, "ended_at": timezone.now()}
 
 
 def _start_and_store(session: Session, spec: Spec) -> None:

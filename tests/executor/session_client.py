@@ -134,6 +134,10 @@ class SessionClient:
         ]
         return states[-1]
 
+    async def comes_to(self, state):
+        """Waits for a state, which the manager names after the event that led to it."""
+        await self.until(lambda: self.state == state)
+
     def robot_position(self):
         """Returns the position of the first robot, from scene and poses."""
         scene = next((f for _, f in reversed(self.frames) if isinstance(f, Scene)), None)

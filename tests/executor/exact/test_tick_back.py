@@ -58,13 +58,14 @@ async def test_at_a_breakpoint_it_leads_to_the_tick_before_and_at_last_to_the_be
         assert await client.ask("run", exact(hashing_app())) == "ack"
         for number in (1, 2, 3, 4):
             await client.event("held", lambda d, n=number: d["tick"] == n, after=at)
+            await client.comes_to("held")
             if number < 4:
                 assert await client.ask("continue_run") == "ack"
-        assert client.state == "held"
         assert await back(client) == 2
         at = len(client.events)
         assert await client.ask("resume") == "ack"  # it is held where it was the first time
         await client.event("held", lambda d: d["tick"] == 3, after=at)
+        await client.comes_to("held")
         assert await back(client) == 1
         assert await back(client) == 0
         refused = await client.ask("tick_back")
@@ -73,6 +74,7 @@ async def test_at_a_breakpoint_it_leads_to_the_tick_before_and_at_last_to_the_be
         at = len(client.events)
         assert await client.ask("step") == "ack"
         await client.event("held", lambda d: d["tick"] == 1, after=at)
+        await client.comes_to("held")
         assert (await client.ask("tick_back"))["code"] == "first_tick"
         assert client.state == "held"
         assert await client.ask("disconnect") == "ack"
@@ -86,7 +88,7 @@ async def held_in_python(client: SessionClient, condition: str) -> tuple[Debugge
     await debugger.ask("initialize")
     await debugger.configure({"line": ADDS, "condition": condition})
     stop = await debugger.event("stopped")
-    assert client.state == "held"
+    await client.comes_to("held")
     return debugger, stop
 
 
@@ -103,6 +105,7 @@ async def test_a_program_at_a_line_of_python_goes_back_and_its_debugger_connects
         at = len(client.events)
         assert await client.ask("resume") == "ack"
         await debugger.event("stopped", at)
+        await client.comes_to("held")
         assert await back(client) == 39, "it is held in the same tick again"
         assert await client.ask("disconnect") == "ack"
         await client.close()

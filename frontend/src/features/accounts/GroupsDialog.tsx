@@ -3,6 +3,7 @@ import { IconUserPlus } from '@tabler/icons-react';
 import { useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { fetchAgain } from '@/api/queries';
 import type { Me } from '@/api/types';
 import { accounts, type UserGroup } from './api';
 import { CopyRow } from './CopyRow';
@@ -30,7 +31,7 @@ function Groups({ me }: { readonly me: Me }) {
   const [name, setName] = useState('');
   const change = useMutation({
     mutationFn: (step: () => Promise<unknown>) => step(),
-    onSettled: () => queries.invalidateQueries({ queryKey: ['groups'] }),
+    onSettled: () => fetchAgain(queries, ['groups']),
   });
   const run = (step: () => Promise<unknown>) => change.mutate(step);
   const problem = change.error ?? error;

@@ -3,6 +3,7 @@ import { IconLink, IconUsers } from '@tabler/icons-react';
 import { useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { fetchAgain } from '@/api/queries';
 import { useProjectStore } from '@/store/project';
 import { accounts, type SharedRole } from './api';
 import { CopyRow } from './CopyRow';
@@ -34,7 +35,7 @@ function Sharing({ projectId, onClose }: Pick<ShareDialogProps, 'projectId' | 'o
   const groups = useQuery({ queryKey: ['groups'], queryFn: accounts.groups }).data ?? [];
   const change = useMutation({
     mutationFn: (step: () => Promise<unknown>) => step(),
-    onSettled: () => queries.invalidateQueries({ queryKey: key }),
+    onSettled: () => fetchAgain(queries, key),
   });
   const run = (step: () => Promise<unknown>) => change.mutate(step);
   const [nextOwner, setNextOwner] = useState<string | null>(null);
@@ -43,7 +44,7 @@ function Sharing({ projectId, onClose }: Pick<ShareDialogProps, 'projectId' | 'o
     onSuccess: () => {
       onClose();
       useProjectStore.setState({ role: 'editor' });
-      return queries.invalidateQueries({ queryKey: ['projects'] });
+      return fetchAgain(queries, ['projects']);
     },
   });
   const problem = transfer.error ?? change.error ?? error;

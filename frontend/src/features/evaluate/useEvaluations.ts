@@ -2,6 +2,7 @@ import { notifications } from '@mantine/notifications';
 import { useQuery, useQueryClient } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { evaluations, type Evaluation } from '@/api/evaluations';
+import { fetchAgain } from '@/api/queries';
 import { useProjectStore } from '@/store/project';
 import { saveNow } from '@/store/saving/autosave';
 import { refusalText } from '@/i18n/evaluationReasons';
@@ -44,7 +45,7 @@ export function useEvaluations(isVisible: boolean) {
       });
       return null;
     } finally {
-      await client.invalidateQueries({ queryKey });
+      await fetchAgain(client, queryKey);
     }
   };
   return {

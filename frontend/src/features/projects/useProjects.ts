@@ -2,6 +2,7 @@ import { notifications } from '@mantine/notifications';
 import { useInfiniteQuery, useMutation, useQueryClient } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
+import { fetchAgain } from '@/api/queries';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from '@/api/reason';
@@ -23,7 +24,7 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
 export function useProjectCommands() {
   const { t } = useTranslation('projects');
   const queries = useQueryClient();
-  const refresh = () => queries.invalidateQueries({ queryKey: ['projects'] });
+  const refresh = () => fetchAgain(queries, ['projects']);
   const open = (project: ProjectDetail) => navigate(projectPath(project.id));
   const onError = (error: Error) => {
     notifications.show({ color: 'red', title: t('failed'), message: reasonOf(error) });

@@ -1,5 +1,6 @@
 import { keepPreviousData, useInfiniteQuery, useQueryClient } from '@tanstack/react-query';
-import { useEffect } from 'react';
+import { useEffect, useRef } from 'react';
+import { fetchAgain } from '@/api/queries';
 import { revisions, type Revision } from '@/api/revisions';
 import { useProjectStore } from '@/store/project';
 
@@ -18,9 +19,11 @@ export function useRevisions(path: string, isVisible: boolean) {
     placeholderData: keepPreviousData,
     enabled: isVisible && projectId !== null,
   });
+  const seen = useRef(revision);
   useEffect(() => {
-    // A new revision was saved, here or elsewhere.
-    void client.invalidateQueries({ queryKey: keyOf(projectId) });
+    if (seen.current === revision) return;
+    seen.current = revision; // it was saved, here or elsewhere
+    void fetchAgain(client, keyOf(projectId));
   }, [client, projectId, revision]);
   const items: Revision[] = found.data?.pages.flatMap((page) => page.items) ?? [];
   return { ...found, items };
@@ -33,6 +36,6 @@ export function useLabel(): (number: number, label: string) => Promise<void> {
   return async (number, label) => {
     if (projectId === null) return;
     await revisions.label(projectId, number, label);
-    await client.invalidateQueries({ queryKey: keyOf(projectId) });
+    await fetchAgain(client, keyOf(projectId));
   };
 }

@@ -1,5 +1,6 @@
 import type { QueryClient } from '@tanstack/react-query';
 import type { TFunction } from 'i18next';
+import { fetchAgain } from '@/api/queries';
 import { runs } from '@/api/runs';
 import { closeRunsDialog } from '@/store/dialogs/runs';
 import { openKept } from '@/store/moment/looking';
@@ -18,5 +19,5 @@ export async function openLog(
     closeRunsDialog();
     openKept(storedSource(projectId, run), run);
   });
-  await client.invalidateQueries({ queryKey: ['runs', projectId] });
+  await fetchAgain(client, ['runs', projectId]);
 }

@@ -1,6 +1,7 @@
 import { notifications } from '@mantine/notifications';
 import { useQuery, useQueryClient } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
+import { fetchAgain } from '@/api/queries';
 import { reasonOf } from '@/api/reason';
 import { runs } from '@/api/runs';
 
@@ -19,7 +20,7 @@ export function useMyRuns() {
       notifications.show({ color: 'red', title: t('failed.remove'), message: reasonOf(error as Error) });
       return false;
     } finally {
-      await client.invalidateQueries({ queryKey: KEY });
+      await fetchAgain(client, KEY);
     }
   };
   return { found, remove };

@@ -1,6 +1,7 @@
 import { notifications } from '@mantine/notifications';
 import { useQuery, useQueryClient } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
+import { fetchAgain } from '@/api/queries';
 import { runs, type RunChange, type RunToKeep } from '@/api/runs';
 import { useProjectStore } from '@/store/project';
 
@@ -19,7 +20,7 @@ export function useRuns() {
       notifications.show({ color: 'red', title: t(`failed.${what}`), message: (error as Error).message });
       return false;
     } finally {
-      await client.invalidateQueries({ queryKey: key });
+      await fetchAgain(client, key);
     }
   };
   return {

@@ -22,6 +22,7 @@ BENCHMARKS = (
     "evaluation",
     "stream",
     "session",
+    "exact",
     "recording",
     "flood",
     "known_sessions",

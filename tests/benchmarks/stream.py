@@ -173,12 +173,13 @@ def _last_sim(client: SessionClient) -> dict[str, Any]:
 
 
 def pss_mb(pid: int) -> float:
-    """The proportional memory of a process and all below it, in MB."""
+    """The proportional memory of a process and all below it, in MB; one that has just ended has none."""
     family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
     total = 0
     for process in family:
-        text = Path(f"/proc/{process.pid}/smaps_rollup").read_text()
-        total += int(next(line.split()[1] for line in text.splitlines() if line.startswith("Pss:")))
+        with contextlib.suppress(ProcessLookupError, FileNotFoundError):
+            text = Path(f"/proc/{process.pid}/smaps_rollup").read_text()
+            total += int(next(line.split()[1] for line in text.splitlines() if line.startswith("Pss:")))
     return total / 1000
 
 

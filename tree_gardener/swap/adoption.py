@@ -18,7 +18,7 @@ from tree_gardener.swap.state import Due, Key, NodeState, TreeState, keys_of
 from tree_gardener.tree import Tree
 
 
-def adopt(tree: Tree, state: TreeState, behaviours: Mapping[Key, Any]) -> None:
+def adopt(tree: Tree, state: TreeState, behaviours: Mapping[Key, Any], made: TreeState | None = None) -> None:
     """Gives a tree the state of another one: statuses, memory, timers, blackboard and the number of ticks.
 
     Nodes are found by key and type; the others begin IDLE. A node that has another parent than before keeps
@@ -29,8 +29,9 @@ def adopt(tree: Tree, state: TreeState, behaviours: Mapping[Key, Any]) -> None:
         state: the state of the other tree.
         behaviours: the user's objects that continue, by the key of their node; each takes the place of the
             object that was made with the tree.
+        made: the state of the tree when it was made, if it is known.
     """
-    new = capture(tree)
+    new = capture(tree, made)
     keys = keys_of(tree.nodes)
     due: list[tuple[Due, Node, str]] = []
     for node in tree.nodes:

@@ -11,10 +11,14 @@ from tree_gardener.swap.state import EntryState, Key, NodeState, TreeState, keys
 from tree_gardener.tree import Tree
 
 
-def capture(tree: Tree) -> TreeState:
+def capture(tree: Tree, before: TreeState | None = None) -> TreeState:
     """Returns the state of a tree.
 
     Values of the blackboard and queues are not copied: they are the objects that the tree uses.
+
+    Args:
+        tree: the tree.
+        before: an earlier state of it, since which no node has changed: they are not read again.
 
     Raises:
         RuntimeError: a tick is in progress.
@@ -22,12 +26,11 @@ def capture(tree: Tree) -> TreeState:
     if tree.is_ticking:
         raise RuntimeError("the state of a tree is captured between two ticks")
     keys = keys_of(tree.nodes)
-    orders = {id(timer): order for _, order, timer in tree.timers.heap if timer.callback is not None}
     scopes = scopes_of(tree, keys)
     return TreeState(
         tick=tree.tick_number,
         woken=tree.wake_up,
-        nodes={keys[node.uid]: _node(node, keys, orders) for node in tree.nodes},
+        nodes=_nodes(tree, keys) if before is None else before.nodes,
         entries={
             scope: {
                 key: EntryState(entry.type, entry.value, entry.sequence)
@@ -57,6 +60,11 @@ def behaviour_of(node: Node) -> Any:
     if isinstance(node, CustomControl):
         return node.owner
     return None
+
+
+def _nodes(tree: Tree, keys: Mapping[int, Key]) -> dict[Key, NodeState]:
+    orders = {id(timer): order for _, order, timer in tree.timers.heap if timer.callback is not None}
+    return {keys[node.uid]: _node(node, keys, orders) for node in tree.nodes}
 
 
 def _node(node: Node, keys: Mapping[int, Key], orders: Mapping[int, int]) -> NodeState:

@@ -11,7 +11,7 @@ from tree_gardener.status import IDLE
 from tree_gardener.swap.adoption import adopt
 from tree_gardener.swap.capturing import behaviour_of, capture, scopes_of
 from tree_gardener.swap.plan import Fate, Plan, plan
-from tree_gardener.swap.state import Key, keys_of
+from tree_gardener.swap.state import Key, TreeState, keys_of
 from tree_gardener.tree import Tree
 
 CARRY_OVER = "carry_over"
@@ -88,7 +88,7 @@ class Swap:
         failed = self._halt()
         self.new.use_clock(self.old.clock)
         self.new.on_error, self.new.on_warning = self.old.on_error, self.old.on_warning
-        adopt(self.new, capture(self.old), kept)
+        adopt(self.new, self._state_now(), kept, self.new_state)
         self._move_timers(kept)
         self._share_scopes()
         tree_tools.use_blackboard(self.new.blackboard)
@@ -97,6 +97,11 @@ class Swap:
         if failed is not None:
             raise failed
         return self.new
+
+    def _state_now(self) -> TreeState:
+        """Returns the state of the old tree; users' code may have written entries since the plan was made."""
+        is_as_planned = not self.plan.halted and self.old.tick_number == self.old_state.tick
+        return capture(self.old, self.old_state if is_as_planned else None)
 
     def _kept(self) -> dict[Key, Any]:
         """Returns the user's objects that continue."""

@@ -271,3 +271,26 @@ def test_an_equal_tree_takes_over_as_if_nothing_had_happened():
     for letters in (USUAL, RARE):
         swaps += sum(compare(case, letters) for case in cases(0, count("engine_swaps")))
     assert swaps > count("engine_swaps")
+
+
+def test_what_happens_after_the_comparison_is_taken_over_too():
+    old = running(drive(), ticks=0)
+    swap = Swap(old, tree_of(drive()))
+    old.blackboard["found"] = "box"
+    assert old.tick_exactly_once() is Status.RUNNING
+    old.blackboard["found"] = "ball"
+    new = swap.run()
+    assert new.root.status.name == "RUNNING"
+    assert new.tick_number == 1
+    assert (new.blackboard["found"], new.blackboard["ticks"]) == ("ball", 1)
+
+
+def test_what_an_action_writes_at_its_setup_is_taken_over():
+    class Writing(Drive):
+        def setup(self, **_: Any) -> None:
+            old.blackboard["ready"] = True
+
+    old = running(f'<Sequence _bts_id="s">{drive()}</Sequence>')
+    new = Swap(old, tree_of(f'<Sequence _bts_id="s">{drive()}<Writing/></Sequence>', Writing=Writing)).run()
+    assert new.blackboard["ready"] is True
+    assert new.root.status.name == "RUNNING"

@@ -1,0 +1,239 @@
+"""Exact sessions: going back, the pause and the cost of snapshots, *Apply*, Run to motion, and memory.
+
+`python -m tests.benchmarks exact`. All but the ratios need an idle machine.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import statistics
+import time
+from typing import TYPE_CHECKING, Any, Final
+
+import psutil
+
+from executor import child_messages
+from executor.session.events import ChildSaid
+from executor.supervision.copies import SNAPSHOT_NAME
+from tests.benchmarks.stream import pss_mb
+from tests.executor.application.real_application import UPDATE_RUNNING, app
+from tests.executor.exact.exact_runs import app_folder
+from tests.executor.exact.test_process import exact, ready
+from tests.executor.exact.test_snapshots import FIRST, Runs
+from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+LAST_MINUTE_S: Final = (599.0, 590.0, 580.0, 570.0, 560.0, 550.0, 541.0)
+EARLIER_S: Final = (500.0, 431.0, 333.0, 250.0, 177.0, 90.0, 10.0)
+RUN_S: Final = 600
+TICK_HZ: Final = 20
+PICTURES: Final = {"stream": "camera", "max_hz": 10.0, "width": 640}
+WATCHED_S: Final = 20.0
+SNAPSHOTS: Final = 30
+STARTS: Final = 5
+SPARE_S: Final = 4.0
+MOVED_M: Final = 0.002
+NODES: Final = 600
+APPLIES: Final = 10
+
+
+def main() -> None:
+    """Prints every figure."""
+    asyncio.run(_main())
+
+
+async def _main() -> None:
+    await going_back("laser_bump_and_go", "walled_room", None)
+    await going_back("visual_follow_person", "person_in_green", PICTURES)
+    await forks()
+    await memory()
+    for is_exact in (False, True):
+        await applying(is_exact=is_exact)
+    await motion()
+
+
+async def going_back(example: str, universe: str, stream: dict[str, Any] | None) -> None:
+    """Makes a run of ten minutes as fast as possible, and goes back in it; then the snapshots only wait."""
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        if stream is not None:
+            assert await client.ask("subscribe", stream) == "ack"
+        await ready(client, exact(app_zip(example), universe=universe))
+        assert await client.ask("set_speed", {"speed": 0.0}) == "ack"
+        assert await client.ask("pause") == "ack"
+        few = await waiting(manager.pid)
+        assert await client.ask("resume") == "ack"
+        await client.event("tick", lambda d: d["n"] >= RUN_S * TICK_HZ, timeout_s=600)
+        assert await client.ask("pause") == "ack"
+        shares = [
+            f"{share:.2f} % of a core with {count} waiting snapshots"
+            for share, count in (few, await waiting(manager.pid))
+        ]
+        camera = "without a camera" if stream is None else "with one"
+        print(f"{example}, {camera}: manager and snapshots take {' and '.join(shares)}", flush=True)
+        run = client.named("repeatable_runs")[-1]["runs"][-1]
+        for what, moments in (("the last minute", LAST_MINUTE_S), ("ten minutes", EARLIER_S)):
+            times = [await back_s(client, run, t) for t in moments]
+            print(
+                f"  back within {what}: median {statistics.median(times):.2f} s, "
+                f"all {', '.join(f'{each:.2f}' for each in times)}",
+                flush=True,
+            )
+        await client.close()
+
+
+async def back_s(client: SessionClient, run: str, t: float) -> float:
+    """Returns the real time in s until the run is back at a moment."""
+    began_s = time.monotonic()
+    assert await client.ask("go_back", {"run": run, "t": t}, timeout_s=120) == "ack"
+    return time.monotonic() - began_s
+
+
+async def waiting(pid: int) -> tuple[float, int]:
+    """Returns the share of a core in % of a paused session's manager and snapshots, and their number."""
+    family = psutil.Process(pid)
+    snapshots = [each for each in family.children(recursive=True) if each.name() == SNAPSHOT_NAME]
+    watched = [family, *snapshots]
+    before = _spent_s(watched)
+    await asyncio.sleep(WATCHED_S)
+    return 100 * (_spent_s(watched) - before) / WATCHED_S, len(snapshots)
+
+
+def _spent_s(processes: Sequence[psutil.Process]) -> float:
+    return sum(each.cpu_times().user + each.cpu_times().system for each in processes)
+
+
+class TimedRuns(Runs):
+    """Runs that know when each message came."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.times: list[tuple[float, Any]] = []
+
+    def report(self, event: Any) -> None:
+        if isinstance(event, ChildSaid):
+            self.times.append((time.monotonic(), event.message))
+        super().report(event)
+
+
+async def forks() -> None:
+    """Times the pause of a run by a snapshot: from the message of its tick to that of the snapshot."""
+    with app_folder() as folder:
+        it = TimedRuns()
+        try:
+            await it.begin(folder)
+            await it.until(lambda: len(it.of(FIRST, child_messages.SnapshotTaken)) >= SNAPSHOTS)
+            await it.end(FIRST)
+        finally:
+            await it.supervisor.close()
+    pauses, tick_s = [], math.inf
+    for at_s, message in it.times:
+        if isinstance(message, child_messages.Tick):
+            tick_s = at_s
+        elif isinstance(message, child_messages.SnapshotTaken) and tick_s < at_s:
+            pauses.append((at_s - tick_s) * 1000)
+    print(
+        f"pause of a run by a snapshot, {len(pauses)} of them: median {statistics.median(pauses):.1f} ms, "
+        f"largest {max(pauses):.1f} ms",
+        flush=True,
+    )
+
+
+async def memory() -> None:
+    """The memory of a whole session in the warehouse, without its snapshots."""
+    for what, data in (
+        ("exact", exact(app_zip(), universe="warehouse")),
+        ("live", run_data(app_zip(), universe="warehouse")),
+    ):
+        async with manager_process() as manager:
+            client = await SessionClient(manager.ready["port"]).open()
+            await ready(client, data)
+            await client.event("tick", lambda d: d["n"] >= 10 * TICK_HZ)
+            family = psutil.Process(manager.pid).children(recursive=True)
+            of_snapshots = sum(pss_mb(each.pid) for each in family if each.name() == SNAPSHOT_NAME)
+            whole = pss_mb(manager.pid)
+            print(
+                f"warehouse, {what} session: {whole - of_snapshots:.0f} MB (PSS) of manager, recorder, spare "
+                f"and world, {of_snapshots:.0f} MB of snapshots",
+                flush=True,
+            )
+            await client.close()
+
+
+async def applying(*, is_exact: bool) -> None:
+    """Replaces a tree of 600 nodes while it ticks; counts the periods of ticks that were missed."""
+    data = run_data(app(UPDATE_RUNNING, tree(0)))
+    data["application"]["on_finish"] = "repeat"
+    if is_exact:
+        data["universe"] |= {"time": "exact", "seed": 7}
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open(stream=False)
+        at = await ready(client, data)
+        durations = []
+        for number in range(1, APPLIES + 1):
+            await asyncio.sleep(1.0)
+            began_s = time.monotonic()
+            changed = app(UPDATE_RUNNING, tree(number))
+            assert await client.ask("apply", {"app_zip_base64": changed}) == "ack"
+            durations.append(time.monotonic() - began_s)
+        await asyncio.sleep(1.0)
+        ticks = [(e["data"]["n"], e["t"]) for e in client.events[at:] if e["command"] == "tick"]
+        (first, begin_s), (last, end_s) = ticks[0], ticks[-1]
+        missed = round((end_s - begin_s) * TICK_HZ) - (last - first)
+        print(
+            f"*Apply* of {NODES} nodes, {'exact' if is_exact else 'live'}: {missed} of {ticks[-1][0]} ticks "
+            f"missed in {APPLIES}; answered after {statistics.median(durations) * 1000:.0f} ms "
+            f"(largest {max(durations) * 1000:.0f} ms)",
+            flush=True,
+        )
+        await client.close()
+
+
+def tree(number: int) -> str:
+    """Returns a tree of so many nodes, of which one has changed and one is new."""
+    leaves = "".join(f"<AlwaysSuccess _bts_id='n{i}'/>" for i in range(NODES - 3))
+    return (
+        f"<Sequence _bts_id='s'>{leaves}<AlwaysSuccess _bts_id='new{number}'/><Act _bts_id='a'/></Sequence>"
+    )
+
+
+async def motion() -> None:
+    """The time from Run to motion with a manager and a spare that are ready, live and exact in turns."""
+    times: dict[str, list[float]] = {"live": [], "exact": []}
+    for _ in range(STARTS):
+        for what, found in times.items():
+            async with manager_process() as manager:
+                client = await SessionClient(manager.ready["port"]).open()
+                await client.ask("subscribe", {"stream": "poses", "max_hz": 30.0})
+                await asyncio.sleep(SPARE_S)
+                began_s = time.monotonic()
+                await client.ask("run", exact() if what == "exact" else run_data())
+                await client.until(motion_of(client))
+                found.append(time.monotonic() - began_s)
+                await client.close()
+    for what, found in times.items():
+        print(
+            f"Run to motion, {what}, spare ready: median {statistics.median(found):.2f} s, "
+            f"{min(found):.2f} to {max(found):.2f} s",
+            flush=True,
+        )
+
+
+def motion_of(client: SessionClient) -> Callable[[], bool]:
+    """Returns a function that says whether the robot is no more where it was at first."""
+    places: list[Any] = []
+
+    def has_moved() -> bool:
+        now = client.robot_position()
+        if now is not None:
+            places.append(now[:2])
+        return bool(places) and math.dist(places[0], places[-1]) > MOVED_M
+
+    return has_moved
+
+
+if __name__ == "__main__":
+    main()

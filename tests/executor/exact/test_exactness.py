@@ -36,6 +36,8 @@ HOLDING_STATE: Final = {"Drive", "Late", "Ask", "Walk", "Fetch", "Sleep", "Delay
 VIEWED: Final = ("poses", "view", "camera")
 SPEEDS: Final = (0.0, 5.0, 10.0)
 FEW: Final = 12
+# At least so many ticks are made again after a run was taken back.
+TICKS_LEFT: Final = 10
 
 
 @contextmanager
@@ -154,8 +156,8 @@ def case(seed: int) -> RandomProject:
         assert of_the_run(alone.end()) == of_the_run(state)
 
         last = first.inputs[-1].step / 240 if first.inputs else 0.0
-        end_s = max(tick.t for tick in first.said_of(child_messages.Tick))
-        with at_work(again(start, first, chance.uniform(last + 0.1, max(last + 0.2, end_s - 0.5)))) as back:
+        latest_s = sorted(tick.t for tick in first.said_of(child_messages.Tick))[-TICKS_LEFT]
+        with at_work(again(start, first, chance.uniform(last + 0.1, max(last + 0.2, latest_s)))) as back:
             there = same(back)
             assert there.inputs == len(first.inputs)
             run_on(back, ticks - there.ticks - 4, chance)

@@ -131,7 +131,7 @@ def drain(
     With --wait it ends when the last robot has ended; the status is 1 if the time runs out first.
     """
     with _accounts():
-        from backend.sessions import drain as drains
+        from backend.sessions.lifecycle import drain as drains
 
         if off:
             drains.lift(acting_user=None)

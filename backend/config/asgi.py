@@ -29,8 +29,8 @@ from backend.projects.api import consumers as projects  # noqa: E402
 from backend.projects.api.notices import watch_revisions  # noqa: E402
 from backend.projects.storage.usage import room_for_archive  # noqa: E402
 from backend.sessions import consumers as sessions  # noqa: E402
+from backend.sessions.lifecycle.writes import end_all_sessions  # noqa: E402
 from backend.sessions.maintenance import begin, care_for_ever  # noqa: E402
-from backend.sessions.writes import end_all_sessions  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:

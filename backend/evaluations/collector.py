@@ -25,9 +25,9 @@ from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.runs import queries as runs
 from backend.runs import writes as stored_runs
-from backend.sessions import writes as sessions
 from backend.sessions.choices import SessionState
 from backend.sessions.lease import holder
+from backend.sessions.lifecycle import writes as sessions
 from backend.sessions.manager.address import open_sync_socket
 from backend.sessions.models import Session
 

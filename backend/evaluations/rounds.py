@@ -25,10 +25,10 @@ from backend.evaluations.collector import Collector
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.work import Place
 from backend.sessions import queries as session_queries
-from backend.sessions import writes as sessions
 from backend.sessions.choices import SessionKind, SessionState
-from backend.sessions.drain import current as current_drain
 from backend.sessions.errors import DrainingError, HostFullError
+from backend.sessions.lifecycle import writes as sessions
+from backend.sessions.lifecycle.drain import current as current_drain
 from backend.sessions.models import LIVE_STATES, Session
 from backend.workers.aside import sweeps
 

@@ -27,7 +27,7 @@ from backend.evaluations.models import Evaluation, Outcome, Replay
 from backend.evaluations.queries import ENDING, FOLDER
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
-from backend.sessions.writes import has_room_for_evaluations
+from backend.sessions.lifecycle.writes import has_room_for_evaluations
 from translator.limits import megabytes
 
 if TYPE_CHECKING:

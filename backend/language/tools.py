@@ -20,8 +20,8 @@ from websockets.exceptions import InvalidHandshake, WebSocketException
 from backend.config.environment import environment
 from backend.language.errors import CheckerUnavailableError, UnavailableError
 from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.lifecycle.writes import launcher
 from backend.sessions.manager.address import open_socket, open_sync_socket
-from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
     from websockets.asyncio.client import ClientConnection

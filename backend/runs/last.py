@@ -31,8 +31,8 @@ from backend.runs.length import DamagedError
 from backend.runs.pull import LAST
 from backend.sessions.choices import SessionKind
 from backend.sessions.launchers.process import RUNS
+from backend.sessions.lifecycle.writes import launcher, manager_token
 from backend.sessions.models import LIVE_STATES, Session
-from backend.sessions.writes import launcher, manager_token
 from backend.workers.aside import sweeps
 
 if TYPE_CHECKING:

@@ -23,9 +23,9 @@ from backend.runs.models import PART_BYTES, Run, RunPart
 from backend.runs.objects import placed
 from backend.runs.pull import DEADLINE_S, pull
 from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.lifecycle.writes import manager_token
 from backend.sessions.queries import live_session
 from backend.sessions.queries import session as any_session
-from backend.sessions.writes import manager_token
 
 if TYPE_CHECKING:
     from uuid import UUID

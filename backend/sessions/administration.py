@@ -11,9 +11,10 @@ from django.urls import path, reverse
 from backend.accounts.administration import ReadOnly, site
 from backend.accounts.audit import note
 from backend.accounts.models import User
-from backend.sessions import drain, queries
+from backend.sessions import queries
+from backend.sessions.lifecycle import drain
+from backend.sessions.lifecycle.writes import end_session
 from backend.sessions.models import LIVE_STATES, Session
-from backend.sessions.writes import end_session
 
 if TYPE_CHECKING:
     from django.db.models import QuerySet

@@ -15,7 +15,7 @@ class SessionsConfig(AppConfig):
         from backend.accounts.rights import lessened  # noqa: PLC0415
         from backend.accounts.signals_out import account_leaves  # noqa: PLC0415
         from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded
-        from backend.sessions.writes import (  # noqa: PLC0415
+        from backend.sessions.lifecycle.writes import (  # noqa: PLC0415
             end_sessions_of,
             end_sessions_of_user,
             end_sessions_without_right,

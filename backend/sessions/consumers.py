@@ -22,8 +22,9 @@ from backend.core.websocket import READ_BYTES, read_at_most
 from backend.ingress.owners import user_owner
 from backend.ingress.sockets import ID, Call, Closed
 from backend.ingress.turns import turns as shares
-from backend.sessions import queries, writes
+from backend.sessions import queries
 from backend.sessions.choices import SessionState
+from backend.sessions.lifecycle import writes
 from backend.sessions.maintenance import attendance, say
 from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.watch import watchmen, why

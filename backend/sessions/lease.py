@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Final
 
 from django.db import connection
 
+from backend.sessions.lifecycle.writes import launcher
 from backend.sessions.models import Lease
-from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -25,9 +25,9 @@ from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
-from backend.sessions import drain, writes
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.lease import CARE, holder, is_alone
+from backend.sessions.lifecycle import drain, writes
 from backend.sessions.manager.holds import is_held
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained

@@ -9,7 +9,8 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.requests import user_of
-from backend.sessions import attaching, queries, writes
+from backend.sessions import queries
+from backend.sessions.lifecycle import attaching, writes
 from backend.sessions.serializers import AttachSerializer, SessionSerializer, presented
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidSta
 from websockets.protocol import State
 
 from backend.config.environment import environment
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.sockets import manager_socket
 
 if TYPE_CHECKING:

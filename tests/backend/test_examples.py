@@ -16,9 +16,9 @@ from backend.language import behaviours, ruff
 from backend.language import views as language
 from backend.runs import logs, views_mine
 from backend.runs import writes as run_writes
-from backend.sessions import attaching
-from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
+from backend.sessions.lifecycle import attaching
+from backend.sessions.lifecycle import writes as session_writes
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
 from tests.backend.runs.conftest import SAMPLE
 from tests.backend.story import Story, play

@@ -21,8 +21,8 @@ from backend.projects.models import GroupShare
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes
 from backend.runs.models import Run
-from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
+from backend.sessions.lifecycle import writes as session_writes
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
 

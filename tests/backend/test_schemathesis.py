@@ -19,7 +19,7 @@ from backend.core import guard
 from backend.projects.storage import queries
 from backend.projects.storage.access import Need
 from backend.projects.storage.writes import create_project
-from backend.sessions import attaching, writes
+from backend.sessions.lifecycle import attaching, writes
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person, team  # noqa: F401 - the fixture of that name
 from tests.budget import count

@@ -102,7 +102,8 @@ async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
 
 async def stop_manager(session: HangingSession) -> tuple[float, float]:
     """Stops a manager; returns the seconds until the watch noticed, and until it ended the manager."""
-    from backend.sessions import watch, writes
+    from backend.sessions import watch
+    from backend.sessions.lifecycle import writes
 
     writes.manager_token = lambda session: TOKEN
     one: Any = SimpleNamespace(id="benchmark", address=f"127.0.0.1:{session.manager.ready['port']}")

@@ -80,7 +80,8 @@ async def _watch(sessions: list[Session]) -> float:
 
 async def _rounds() -> float:
     """Returns the processor time of a round of maintenance in s."""
-    from backend.sessions import maintenance, writes
+    from backend.sessions import maintenance
+    from backend.sessions.lifecycle import writes
     from backend.sessions.watch import watchmen
 
     counted = itertools.count(1)  # the first round of a server also looks for what another one left

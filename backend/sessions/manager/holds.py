@@ -6,7 +6,7 @@ import http.client
 import json
 from typing import TYPE_CHECKING, Final
 
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.address import http_connection
 
 if TYPE_CHECKING:

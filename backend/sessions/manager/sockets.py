@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 from urllib.parse import quote
 
 from backend.config.environment import environment
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.address import open_socket
 
 if TYPE_CHECKING:

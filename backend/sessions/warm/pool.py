@@ -16,11 +16,11 @@ from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.core.problems import StudioError
-from backend.sessions import drain
 from backend.sessions.choices import SessionState
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Spec
+from backend.sessions.lifecycle import drain
+from backend.sessions.lifecycle.writes import launcher, token_of, workers
 from backend.sessions.models import LIVE_STATES, Session, WarmExecutor
-from backend.sessions.writes import launcher, token_of, workers
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -10,7 +10,7 @@ from backend.accounts.models import User
 from backend.cli import admin as commands
 from backend.cli.shared.errors import CliError
 from backend.config import server
-from backend.sessions import drain
+from backend.sessions.lifecycle import drain
 from tests.backend.accounts.test_sharing import project_of
 
 

@@ -14,8 +14,8 @@ from backend.evaluations.choices import JobState
 from backend.evaluations.collector import Collector
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.work import Place
-from backend.sessions import writes as sessions
 from backend.sessions.lease import holder
+from backend.sessions.lifecycle import writes as sessions
 from tests.backend.evaluations.conftest import done, line, session_for, store, wish
 
 pytestmark = pytest.mark.django_db(transaction=True)

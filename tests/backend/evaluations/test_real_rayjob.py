@@ -10,7 +10,7 @@ import pytest
 
 from backend.evaluations import queries, rounds, writes
 from backend.projects.storage import writes as projects
-from backend.sessions import writes as sessions
+from backend.sessions.lifecycle import writes as sessions
 from backend.sessions.models import Session
 from tests.backend.sessions.launchers.kubernetes.conftest import client, cluster, clusters  # noqa: F401
 from tests.fakes.ray_operator import RayOperator

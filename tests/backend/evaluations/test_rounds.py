@@ -13,7 +13,7 @@ from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes as projects
-from backend.sessions import writes as sessions
+from backend.sessions.lifecycle import writes as sessions
 from backend.sessions.models import Drain, Session
 from backend.sessions.queries import start_timeout_s
 from backend.workers.aside import sweeps

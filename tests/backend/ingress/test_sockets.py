@@ -15,8 +15,8 @@ from django.utils import timezone
 from backend.accounts.models import User
 from backend.ingress.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
 from backend.projects.api.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
-from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
+from backend.sessions.lifecycle import writes as session_writes
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person
 

@@ -9,9 +9,9 @@ from typing import Any
 import psutil
 import pytest
 
-from backend.sessions import writes
 from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.lifecycle import writes
 from tests.backend.accounts.conftest import person, stranger, team
 
 FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"

@@ -18,7 +18,6 @@ from backend.config.server import _make_server, bind
 from backend.core import guard
 from backend.core.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
 from backend.ingress.sockets import Route, serve
-from backend.sessions import writes
 from backend.sessions.consumers import (
     ADDRESS,
     EXECUTOR_FAILED,
@@ -29,7 +28,8 @@ from backend.sessions.consumers import (
     may_use,
 )
 from backend.sessions.consumers import relay as relay_socket
-from tests.backend.sessions.test_writes import launched
+from backend.sessions.lifecycle import writes
+from tests.backend.sessions.lifecycle.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"

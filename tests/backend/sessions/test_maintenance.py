@@ -11,13 +11,14 @@ from asgiref.sync import async_to_sync
 from django.utils import timezone
 
 from backend.config.environment import environment
-from backend.sessions import maintenance, writes
+from backend.sessions import maintenance
 from backend.sessions.errors import HostFullError
 from backend.sessions.launchers.base import News
 from backend.sessions.launchers.hosts import lost_reason
 from backend.sessions.lease import holder
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

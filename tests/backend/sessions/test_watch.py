@@ -17,13 +17,14 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.protocol import State
 
-from backend.sessions import maintenance, watch, writes
+from backend.sessions import maintenance, watch
 from backend.sessions.consumers import EXECUTOR_SILENT, _is_ping, _noting
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager import sockets
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import spec
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.backend.sessions.test_consumers import opened, relay, session  # noqa: F401 - fixtures
-from tests.backend.sessions.test_writes import launched
 from tests.executor.manager.test_gate import gate  # noqa: F401 - a fixture
 from tests.executor.session_client import TOKEN, manager_process
 

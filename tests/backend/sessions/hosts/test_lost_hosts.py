@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from backend.sessions import maintenance, writes
+from backend.sessions import maintenance
 from backend.sessions.launchers.hosts import LOCAL, lost_reason
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.e2e.server import wait_until
 
 pytestmark = pytest.mark.django_db(transaction=True)

@@ -13,13 +13,14 @@ from pathlib import Path
 
 import pytest
 
-from backend.sessions import maintenance, writes
+from backend.sessions import maintenance
 from backend.sessions.hosts.dial import NotReachedError
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
 from tests.backend.sessions.keeper.conftest import Host
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.budget import seeds
 
 pytestmark = [pytest.mark.django_db(transaction=True), pytest.mark.timeout(900)]

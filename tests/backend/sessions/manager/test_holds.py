@@ -6,8 +6,8 @@ import pytest
 
 from backend.sessions.manager.holds import is_held
 from backend.sessions.models import Session
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.backend.sessions.test_maintenance import start
-from tests.backend.sessions.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

@@ -9,7 +9,7 @@ import pytest
 from websockets.asyncio.server import serve, unix_serve
 
 from backend.accounts.models import User
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.sockets import USER_HEADER, manager_socket
 from backend.sessions.models import Session
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from backend.config.environment import environment
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.warm import pool
 from tests.backend.sessions.launchers.kubernetes.conftest import client, cluster, launcher
 

@@ -9,14 +9,14 @@ from uuid import uuid4
 
 import pytest
 
-from backend.sessions import writes
 from backend.sessions.launchers.base import WARM
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.models import Session, WarmExecutor
 from backend.sessions.warm import pool
 from backend.sessions.warm.claims import claim, key_of
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.fakes.kubernetes_node import Node
 
 pytestmark = pytest.mark.django_db(transaction=True)

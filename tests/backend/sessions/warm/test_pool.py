@@ -9,8 +9,8 @@ from uuid import uuid4
 import pytest
 from django.utils import timezone
 
-from backend.sessions import drain
 from backend.sessions.launchers.kubernetes.bodies import PATIENCE_S, Kind, pod_name
+from backend.sessions.lifecycle import drain
 from backend.sessions.models import WarmExecutor
 from backend.sessions.warm import pool
 from tests.backend.sessions.conftest import spec

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import pytest
 from django.db import connection
 
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.fakes.kubernetes_api import make_ready
 
 if TYPE_CHECKING:

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from django.core.exceptions import ImproperlyConfigured
 
-from backend.sessions import writes
 from backend.sessions.launchers.kubernetes.bodies import PORT
 from backend.sessions.launchers.kubernetes.launcher import Files, KubernetesLauncher, open_cluster
+from backend.sessions.lifecycle import writes
 from backend.sessions.manager.address import http_connection
 from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.models import Session
 from tests.backend.sessions.launchers.kubernetes.conftest import TEMPLATE, TOOLS_TEMPLATE
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 from tests.fakes.kubernetes_api import NAMESPACE, FakeCluster
 from tests.fakes.kubernetes_node import Node, kubeconfig
 

@@ -10,10 +10,11 @@ import pytest
 
 from backend.accounts.models import User
 from backend.language import tools
-from backend.sessions import maintenance, writes
+from backend.sessions import maintenance
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_body, pod_name
 from backend.sessions.launchers.kubernetes.launcher import KubernetesLauncher
+from backend.sessions.lifecycle import writes
 from tests.backend.sessions.launchers.kubernetes.conftest import templates
 from tests.fakes.kubernetes_api import VERSION
 from tests.fakes.kubernetes_node import Node

@@ -13,9 +13,9 @@ from django.apps import apps
 from django.utils import timezone
 
 from backend.projects.models import Project
-from backend.sessions import writes
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import children, spec
 

@@ -24,7 +24,7 @@ from backend.core.problems import NotFoundError, StudioError
 from backend.core.process_locks import held_by_process
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
-from backend.sessions import drain, queries
+from backend.sessions import queries
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.hosts.names import read_host
@@ -33,8 +33,9 @@ from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.launchers.relayed import RelayedLauncher
+from backend.sessions.lifecycle import drain
+from backend.sessions.lifecycle.ros_domains import domains_on_this_host
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
-from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
 from backend.sessions.warm.claims import claim, key_of
 

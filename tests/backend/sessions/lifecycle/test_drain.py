@@ -7,8 +7,8 @@ from typing import Any
 from django.conf import settings
 
 from backend.accounts.models import AuditEntry
-from backend.sessions import drain
-from backend.sessions import writes as session_writes
+from backend.sessions.lifecycle import drain
+from backend.sessions.lifecycle import writes as session_writes
 from tests.backend.accounts.test_sharing import project_of
 
 

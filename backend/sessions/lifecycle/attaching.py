@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 from uuid import uuid4
 
 from backend.config.environment import environment
-from backend.sessions import drain, queries, writes
+from backend.sessions import queries
 from backend.sessions.choices import SessionKind
 from backend.sessions.errors import AttachingLocalError, LaunchError
 from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.lifecycle import drain, writes
 from backend.sessions.models import LIVE_STATES
 from backend.sessions.targets import read_target
 

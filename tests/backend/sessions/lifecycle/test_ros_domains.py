@@ -7,9 +7,9 @@ import socket
 
 import pytest
 
-from backend.sessions import writes
+from backend.sessions.lifecycle import writes
+from backend.sessions.lifecycle.ros_domains import domains_on_this_host
 from backend.sessions.models import Session
-from backend.sessions.ros_domains import domains_on_this_host
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

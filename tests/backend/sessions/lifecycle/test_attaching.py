@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from backend.sessions import attaching, writes
 from backend.sessions.launchers.base import WARM
+from backend.sessions.lifecycle import attaching, writes
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import children
-from tests.backend.sessions.test_writes import launched
+from tests.backend.sessions.lifecycle.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

@@ -27,7 +27,7 @@ from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.lease import CARE, holder, is_alone
-from backend.sessions.lifecycle import drain, writes
+from backend.sessions.lifecycle import drain, orphans, writes
 from backend.sessions.manager.holds import is_held
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained
@@ -117,7 +117,7 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
 def begin() -> None:
     """Ends the executors of a killed server unless other servers do; called before the first request."""
     if is_alone():
-        writes.end_orphans()
+        orphans.end_orphans()
 
 
 async def care_for_ever() -> None:
@@ -183,7 +183,7 @@ def maintain(*, is_for_orphans: bool = False) -> None:
     news = writes.launcher().look_at_hosts()
     writes.fail_lost(news.lost)
     if is_for_orphans or news.has_returned:
-        writes.end_orphans()
+        orphans.end_orphans()
     if is_for_orphans:
         writes.launcher().tidy()
         end_leftovers()

@@ -3,5 +3,6 @@
 writes       starts, ends and refreshes them
 attaching    starts those that follow programs outside
 drain        lets none start before an upgrade
-ros_domains  the ROS domains in use on this host
+orphans      ends what a killed server left
+ros_domains  chooses the ROS domain of one
 """

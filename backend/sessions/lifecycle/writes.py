@@ -5,11 +5,9 @@ from __future__ import annotations
 import hashlib
 import hmac
 import logging
-import os
 import sys
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from datetime import timedelta
 from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Final
@@ -33,8 +31,7 @@ from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.launchers.relayed import RelayedLauncher
-from backend.sessions.lifecycle import drain
-from backend.sessions.lifecycle.ros_domains import domains_on_this_host
+from backend.sessions.lifecycle import drain, ros_domains
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.signals import session_ends
 from backend.sessions.warm.claims import claim, key_of
@@ -48,8 +45,6 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-# Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
-ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
 # A hanging executor does not end on request.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
@@ -186,7 +181,7 @@ def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
     if limit:
         return limit - taken
-    return len(ROS_DOMAINS) if launcher().shares_network else sys.maxsize
+    return len(ros_domains.ROS_DOMAINS) if launcher().shares_network else sys.maxsize
 
 
 def start_queued() -> int:
@@ -266,7 +261,7 @@ def end_session(session: Session, why: str = "") -> Session:
             session_ends.send_robust(Session, session=session)
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
     if session.state in LIVE_STATES:
-        _finish(session, SessionState.ENDED, why)
+        finish(session, SessionState.ENDED, why)
     return session
 
 
@@ -392,42 +387,6 @@ def _end_and_disconnect(session: Session, why: str = "") -> None:
         connection.close()
 
 
-def end_orphans() -> None:
-    """Ends executors and sessions that a killed server left; called before the first session starts.
-
-    Of several servers, the one that maintains the sessions calls it every minute.
-
-    If executors outlive the server, running sessions continue. Then this function ends only executors that
-    the database does not know as running, and sessions whose start was never finished.
-    """
-    timeout_s = environment().session_stop_timeout_s
-    survives = launcher().survives_server
-    for session in queries.live_sessions():
-        if session.state == SessionState.QUEUED and survives:
-            continue
-        if session.state == SessionState.STARTING and survives and not _is_overdue(session):
-            continue
-        if session.state == SessionState.READY and survives and session.launcher_state:
-            refresh(session)  # an executor that has ended meanwhile says why
-            continue
-        if not survives or not session.launcher_state or launcher().poll(session.launcher_state) is not None:
-            state = session.launcher_state or launcher().state_of(str(session.id))
-            if state:
-                launcher().stop(state, timeout_s=timeout_s)
-            _finish(session, SessionState.ENDED, "The server was restarted.")
-    running = set(launcher().running())  # first, since another server may be starting one
-    known = {str(session.id) for session in queries.live_sessions()}
-    for orphan in running - known:
-        log.warning("the executor %s belongs to no session and is ended", orphan)
-        launcher().stop(launcher().state_of(orphan), timeout_s=timeout_s)
-
-
-def _is_overdue(session: Session) -> bool:
-    """Returns whether a session has been starting for so long that no web server can still be at work."""
-    longest = timedelta(seconds=2 * queries.start_timeout_s(session))
-    return timezone.now() - (session.used_at or session.created_at) > longest  # it may have queued
-
-
 def _launch(session: Session) -> None:
     limits = environment()
     spec = Spec(
@@ -495,23 +454,13 @@ def _moved(session: Session, before: SessionState, **fields: Any) -> bool:
     return True
 
 
-def _finish(session: Session, state: SessionState, error: str = "") -> None:
+def finish(session: Session, state: SessionState, error: str = "") -> None:
+    """Stores that a session is over."""
     session.state, session.error, session.ended_at = state, error, timezone.now()
     session.save(update_fields=["state", "error", "ended_at"])
 
 
 def _domain_for(kind: str) -> int | None:
     """Returns the domain of a session that starts; None if it joins no graph or has its own network."""
-    return _free_domain() if launcher().shares_network and kind != SessionKind.ATTACHED else None
-
-
-def _free_domain() -> int:
-    taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
-    # The first domain differs among servers on one host, so that their first sessions do not collide.
-    offset = os.getpid() % len(ROS_DOMAINS)
-    candidates = [domain for domain in [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]] if domain not in taken]
-    if not candidates:
-        raise HostFullError("Every ROS domain of this host is in use.", hint="End a session and try again.")
-    others = domains_on_this_host()
-    free: int = next((domain for domain in candidates if domain not in others), candidates[0])
-    return free
+    needs_one = launcher().shares_network and kind != SessionKind.ATTACHED
+    return ros_domains.free_domain() if needs_one else None

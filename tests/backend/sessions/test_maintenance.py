@@ -16,7 +16,7 @@ from backend.sessions.errors import HostFullError
 from backend.sessions.launchers.base import News
 from backend.sessions.launchers.hosts import lost_reason
 from backend.sessions.lease import holder
-from backend.sessions.lifecycle import writes
+from backend.sessions.lifecycle import orphans, writes
 from backend.sessions.models import Session
 from tests.backend.sessions.lifecycle.test_writes import launched
 
@@ -189,7 +189,7 @@ def test_the_sessions_of_a_lost_host_fail_with_its_reason_and_those_of_others_ru
 def test_executors_that_nobody_knows_are_ended_when_a_host_returns(start, fake_manager, monkeypatch):
     launcher = fake_manager("echo")
     swept = []
-    monkeypatch.setattr(writes, "end_orphans", lambda: swept.append(True))
+    monkeypatch.setattr(orphans, "end_orphans", lambda: swept.append(True))
     maintenance.maintain()
     assert swept == []
     monkeypatch.setattr(launcher, "look_at_hosts", lambda: News(has_returned=True))

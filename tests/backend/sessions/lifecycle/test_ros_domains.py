@@ -7,7 +7,7 @@ import socket
 
 import pytest
 
-from backend.sessions.lifecycle import writes
+from backend.sessions.lifecycle import ros_domains, writes
 from backend.sessions.lifecycle.ros_domains import domains_on_this_host
 from backend.sessions.models import Session
 
@@ -33,7 +33,7 @@ def test_a_session_keeps_out_of_the_graph_of_other_programs(api, project, fake_m
     fake_manager("echo")
     first = next(each for each in range(1, 100) if not {each, each + 1} & domains_on_this_host())
     domains = range(first, first + 2)
-    monkeypatch.setattr(writes, "ROS_DOMAINS", domains)
+    monkeypatch.setattr(ros_domains, "ROS_DOMAINS", domains)
     first_choice = os.getpid() % 2  # servers begin at different domains
     with bound(domains[first_choice]):
         api.post(f"projects/{project['id']}/session")
@@ -44,7 +44,7 @@ def test_a_session_keeps_out_of_the_graph_of_other_programs(api, project, fake_m
 def test_a_session_starts_also_where_every_domain_has_programs(api, project, fake_manager, monkeypatch):
     fake_manager("echo")
     only = next(each for each in range(1, 100) if each not in domains_on_this_host())
-    monkeypatch.setattr(writes, "ROS_DOMAINS", range(only, only + 1))
+    monkeypatch.setattr(ros_domains, "ROS_DOMAINS", range(only, only + 1))
     with bound(only):
         api.post(f"projects/{project['id']}/session")
     assert Session.objects.get().ros_domain_id == only

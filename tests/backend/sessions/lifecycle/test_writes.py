@@ -15,9 +15,9 @@ from django.utils import timezone
 from backend.projects.models import Project
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN
-from backend.sessions.lifecycle import writes
+from backend.sessions.lifecycle import ros_domains, writes
 from backend.sessions.models import Session
-from tests.backend.sessions.conftest import children, spec
+from tests.backend.sessions.conftest import children
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -124,7 +124,7 @@ def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
         api.post(f"projects/{pid}/session")
     domains = set(Session.objects.values_list("ros_domain_id", flat=True))
     assert len(domains) == 2
-    assert domains <= set(writes.ROS_DOMAINS)
+    assert domains <= set(ros_domains.ROS_DOMAINS)
     writes.end_all_sessions()
     assert set(Session.objects.values_list("state", flat=True)) == {"ended"}
     assert children() == []
@@ -135,7 +135,7 @@ def test_executors_with_networks_of_their_own_share_a_domain_and_are_not_counted
 ):
     launcher = fake_manager("echo")
     monkeypatch.setattr(type(launcher), "shares_network", False)
-    monkeypatch.setattr(writes, "ROS_DOMAINS", range(5, 6))
+    monkeypatch.setattr(ros_domains, "ROS_DOMAINS", range(5, 6))
     given = []
     start = launcher.start
     monkeypatch.setattr(launcher, "start", lambda spec: given.append(spec.ros_domain_id) or start(spec))
@@ -163,44 +163,11 @@ def test_a_migration_frees_the_domains_of_containers_alone(project, user):
 
 def test_a_full_host_says_so(api, project, fake_manager, monkeypatch):
     fake_manager("echo")
-    monkeypatch.setattr(writes, "ROS_DOMAINS", range(5, 6))
+    monkeypatch.setattr(ros_domains, "ROS_DOMAINS", range(5, 6))
     api.post(f"projects/{project['id']}/session")
     other = api.post("projects", {"name": "Other"}, expect=201)
     assert api.post(f"projects/{other['id']}/session", expect=503)["code"] == "host_full"
     writes.end_all_sessions()
-
-
-def test_what_a_killed_server_left_is_ended_at_the_next_start(api, project, user, fake_manager):
-    launcher = fake_manager("echo")
-    started = launcher.start(spec())
-    Session.objects.create(
-        project=Project.objects.get(), user=user, launcher="process", launcher_state=started.state,
-        state=SessionState.READY, ros_domain_id=5, created_at=timezone.now(),
-    )  # fmt: skip
-    fake_manager("echo")
-    writes.end_orphans()
-    assert Session.objects.get().state == "ended"
-    assert launcher.poll(started.state) is not None
-
-
-def test_an_executor_that_outlived_its_server_and_died_says_why(
-    api, project, user, fake_manager, monkeypatch
-):
-    launcher = fake_manager("echo")
-    monkeypatch.setattr(launcher, "survives_server", True, raising=False)
-    monkeypatch.setattr(launcher, "running", tuple, raising=False)
-    started = launcher.start(spec())
-    Session.objects.create(
-        project=Project.objects.get(), user=user, launcher="process", launcher_state=started.state,
-        state=SessionState.READY, ros_domain_id=5, created_at=timezone.now(),
-    )  # fmt: skip
-    writes.end_orphans()
-    assert Session.objects.get().state == "ready", "what runs continues"
-    launcher.stop(started.state, timeout_s=5)
-    monkeypatch.setattr(launcher, "poll", lambda _state: 3)
-    writes.end_orphans()
-    session = Session.objects.get()
-    assert (session.state, session.error) == ("failed", "The executor ended by itself (status 3).")
 
 
 def test_the_token_between_relay_and_manager_is_stored_nowhere(api, project, fake_manager):

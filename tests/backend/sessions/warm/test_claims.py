@@ -12,6 +12,7 @@ import pytest
 from backend.sessions.launchers.base import WARM
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from backend.sessions.lifecycle import writes
+from backend.sessions.lifecycle.orphans import end_orphans
 from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.models import Session, WarmExecutor
 from backend.sessions.warm import pool
@@ -40,7 +41,7 @@ def test_a_session_that_claims_a_pod_asks_the_cluster_for_nothing(api, project, 
     secret = cluster.object("secrets", pod_name(Kind.WARM, made_id))
     assert secret["stringData"]["token"] == writes.manager_token(session) == writes.token_of(key_of(session))
     assert pods.running() == [], "the sweep of sessions does not know warm pods"
-    writes.end_orphans()
+    end_orphans()
     session.refresh_from_db()
     assert session.state == "ready"
     api.delete(f"sessions/{started['id']}")

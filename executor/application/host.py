@@ -6,23 +6,27 @@ import faulthandler
 import os
 import signal
 import sys
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from executor.application import compat
 from executor.application.forks import limit_forks
 from executor.ros.environment import ros_environment
-from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
+from executor.supervision.parking import PARKING
 from executor.supervision.pulse import Pulse
+from executor.supervision.threads import own
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Mapping
 
     from executor.application.process import Application
+    from executor.child_messages import FromApplication, ToApplication
 
-__all__ = ["enter", "prepare", "serve"]
+__all__ = ["enter", "prepare", "serve", "start_listener"]
 
 
 def prepare() -> None:
@@ -87,3 +91,34 @@ def serve(
         pass
     # Threads that actions started must not keep the process alive.
     os._exit(0)
+
+
+def start_listener(
+    channel: Channel[FromApplication, ToApplication], take: Callable[[ToApplication], object]
+) -> None:
+    """Starts a thread that receives messages, since the main thread waits for ROS.
+
+    It ends the process with the channel: without a manager a run has no purpose.
+
+    Args:
+        channel: from the manager.
+        take: is called with each message, in the thread.
+    """
+    own(threading.Thread(target=_listen, args=(channel, take), name="listener", daemon=True)).start()
+
+
+def _listen(
+    channel: Channel[FromApplication, ToApplication], take: Callable[[ToApplication], object]
+) -> None:
+    spot = PARKING.spot()
+    try:
+        while True:
+            channel.wait()
+            with spot:
+                while (message := channel.receive(0)) is not None:
+                    take(message)
+    except ChannelClosed:
+        os._exit(0)
+    except ChannelError as error:
+        os.write(2, f"The manager sent a message that cannot be read: {error}\n".encode())
+        os._exit(1)

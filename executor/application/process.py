@@ -12,20 +12,16 @@ import contextlib
 import os
 import queue
 import sys
-import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
-from executor.application.host import serve
+from executor.application.host import serve, start_listener
 from executor.application.python_debugger import PythonDebugger, trace
 from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.run_inputs import done_by
-from executor.supervision.channel import Channel, ChannelClosed, ChannelError
-from executor.supervision.parking import PARKING
-from executor.supervision.threads import own
 
 if TYPE_CHECKING:
     from executor.application.changes.program import Program
@@ -36,6 +32,7 @@ if TYPE_CHECKING:
     from executor.application.report import Report
     from executor.application.ros import ApplicationGraph
     from executor.application.zeros import Zeros
+    from executor.supervision.channel import Channel
     from executor.supervision.pulse import Pulse
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
@@ -43,7 +40,6 @@ if TYPE_CHECKING:
 SPIN_S: Final = 0.05
 DISCOVERY_S: Final = 0.8
 GOODBYE_S: Final = 0.5
-MOST_NAMED: Final = 20
 
 
 class Ended(Exception):  # noqa: N818 - the way out, not an error
@@ -133,23 +129,12 @@ class Application:
     # --- commands ---------------------------------------------------------------------------------
 
     def _start_listener(self) -> None:
-        own(threading.Thread(target=self._listen, name="listener", daemon=True)).start()
+        start_listener(self._channel, self._take)
 
-    def _listen(self) -> None:
-        """Receives the manager's messages on a separate thread, since the main thread waits for ROS."""
-        spot = PARKING.spot()
-        try:
-            while True:
-                self._channel.wait()
-                with spot:
-                    while (message := self._channel.receive(0)) is not None:
-                        self._commands.put(message)
-                        self._graph.wake()
-        except ChannelClosed:
-            os._exit(0)  # without a manager the run has no purpose
-        except ChannelError as error:
-            os.write(2, f"The manager sent a message that cannot be read: {error}\n".encode())
-            os._exit(1)
+    def _take(self, message: ToApplication) -> None:
+        """Queues a message of the manager for the main thread, from the thread that listens."""
+        self._commands.put(message)
+        self._graph.wake()
 
     def _wait_for_start(self) -> StartApplication | None:
         self._pulse.rests()
@@ -407,15 +392,12 @@ class Application:
 
     def _restore(self, tree: Tree, blackboard_json: str) -> None:
         """Begins with a recorded blackboard; names what it cannot have."""
-        from executor.application.changes.recorded_board import restore  # noqa: PLC0415 - with the engine
+        from executor.application.changes.recorded_board import restore, said_of  # noqa: PLC0415 - with the engine
 
         empty = restore(tree, blackboard_json)
         self._reporter.restate(tree)
         if empty:
-            more = f", and {len(empty) - MOST_NAMED} more" if len(empty) > MOST_NAMED else ""
-            names = ", ".join(empty[:MOST_NAMED])
-            text = f"Left empty, since the recording does not hold these values: {names}{more}."
-            self._channel.send(child_messages.Log("warning", text, of_world=True))
+            self._channel.send(child_messages.Log("warning", said_of(empty), of_world=True))
 
     def _leave_out(self, held_s: float) -> None:
         if self._profile is not None and self._recorder is not None:

@@ -6,10 +6,13 @@ import json
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from tree_gardener import Tree
 
-__all__ = ["restore"]
+__all__ = ["restore", "said_of"]
 
+_MOST_NAMED: Final = 20
 _PREVIEW: Final = "preview"
 _PLAIN: Final = frozenset(("bool", "int", "double", "string", "NoneType", "list", "dict", "float", "str"))
 """The types whose values a recording holds as they are."""
@@ -40,6 +43,13 @@ def restore(tree: Tree, blackboard_json: str) -> list[str]:
             case _:
                 raise ValueError("an entry of the recorded blackboard is not one")
     return empty
+
+
+def said_of(empty: Sequence[str]) -> str:
+    """Returns the sentence about entries that were left empty."""
+    more = f", and {len(empty) - _MOST_NAMED} more" if len(empty) > _MOST_NAMED else ""
+    names = ", ".join(empty[:_MOST_NAMED])
+    return f"Left empty, since the recording does not hold these values: {names}{more}."
 
 
 def _write(tree: Tree, scope: str, key: str, kind: str, value: Any) -> bool:

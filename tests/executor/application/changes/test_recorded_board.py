@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from executor.application.changes.recorded_board import restore
+from executor.application.changes.recorded_board import restore, said_of
 from tree_gardener import Tree
 
 TEXT = """<root BTCPP_format='4' main_tree_to_execute='Main'>
@@ -60,3 +60,9 @@ def test_what_the_recording_does_not_hold_is_left_empty_and_named() -> None:
 def test_what_is_no_blackboard_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=r"recorded|Expecting"):
         restore(tree(), text)
+
+
+def test_the_first_entries_that_are_left_empty_are_named() -> None:
+    said = "Left empty, since the recording does not hold these values: "
+    assert said_of(["a", "b"]) == f"{said}a, b."
+    assert said_of(["k"] * 23) == f"{said}{', '.join(['k'] * 20)}, and 3 more."

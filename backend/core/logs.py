@@ -17,6 +17,7 @@ MOST_ALIKE: Final = 20
 """Number of warnings of one kind that are written in a period. No client may fill the disk with them."""
 PERIOD_S: Final = 60.0
 NOISY: Final = ("websockets", "uvicorn.error", "asyncio")
+LAYER: Final = "channels_redis.pubsub"
 
 
 class JsonFormatter(logging.Formatter):
@@ -83,10 +84,40 @@ class Flood(logging.Filter):
         return True
 
 
+class LostRedis(logging.Filter):
+    """Reports once in a period, in one line, that the channel layer has lost Redis.
+
+    The layer itself reports each of its tries, which is one a second, as an error with two tracebacks.
+
+    Args:
+        clock: returns a monotonic time in seconds.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        super().__init__()
+        self._clock = clock
+        self._next_s = 0.0
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Returns whether the record is written."""
+        error = record.exc_info[1] if record.name == LAYER and record.exc_info else None
+        if error is None or not type(error).__module__.startswith("redis."):
+            return True
+        now_s = self._clock()
+        if now_s < self._next_s:
+            return False
+        self._next_s = now_s + PERIOD_S
+        record.levelno, record.levelname = logging.WARNING, logging.getLevelName(logging.WARNING)
+        record.msg, record.args = "Redis does not answer, and is asked again each second: %s", (error,)
+        record.exc_info = record.exc_text = None
+        return True
+
+
 def set_up(level: str, style: Literal["text", "json"]) -> None:
     """Configures logging: the lines of this process go to its standard error."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(JsonFormatter() if style == "json" else TextFormatter())
+    handler.addFilter(LostRedis())
     handler.addFilter(Flood())
     logging.basicConfig(level=level.upper(), handlers=[handler])
     for name in NOISY:

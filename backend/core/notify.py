@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
+from secrets import token_hex
 from time import monotonic
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -21,7 +22,7 @@ Result = TypeVar("Result")
 
 ANSWER_S: Final = 5.0
 PAUSE_S: Final = 5.0
-"""How long nobody asks Redis after it did not answer: a try that fails leaves a channel in its layer."""
+"""How long nobody asks Redis after it did not answer, so that sockets do not each wait for it."""
 
 
 @dataclass
@@ -48,11 +49,15 @@ async def following(group: str) -> AsyncIterator[Callable[[], Awaitable[dict[str
     layer = get_channel_layer()
     if monotonic() < _away.until_s:
         raise NoNoticesError("notices cannot be followed: Redis did not answer a moment ago")
+    prefix = f"specific.{token_hex(8)}."
     try:
         async with asyncio.timeout(ANSWER_S):
-            channel = await _tried_again(layer.new_channel)
+            channel = await _tried_again(lambda: layer.new_channel(prefix))
             await _tried_again(lambda: layer.group_add(group, channel))
-    except Exception as error:
+    except BaseException as error:
+        await _forget(layer, group, prefix)
+        if not isinstance(error, Exception):
+            raise  # the socket was closed meanwhile
         _away.until_s = monotonic() + PAUSE_S
         raise NoNoticesError(f"notices cannot be followed: {error!r}") from error
     try:
@@ -62,6 +67,15 @@ async def following(group: str) -> AsyncIterator[Callable[[], Awaitable[dict[str
             await layer.group_discard(group, channel)
         except Exception as error:  # the socket ends in any case
             log.warning("a channel was not left: %s", error)
+
+
+async def _forget(layer: Any, group: str, prefix: str) -> None:
+    """Removes the channels of a try that failed: the layer keeps them, also where Redis did not take them."""
+    for channel in [name for name in layer.channels if prefix in name]:
+        with suppress(Exception):
+            async with asyncio.timeout(ANSWER_S):
+                await layer.group_discard(group, channel)
+        layer.channels.pop(channel, None)
 
 
 async def _tried_again(ask: Callable[[], Awaitable[Result]]) -> Result:

@@ -6,8 +6,17 @@ import json
 import logging
 
 import pytest
+from redis.exceptions import ConnectionError as RedisConnectionError
 
-from backend.core.logs import MOST_ALIKE, PERIOD_S, Flood, JsonFormatter, TextFormatter
+from backend.core.logs import (
+    LAYER,
+    MOST_ALIKE,
+    PERIOD_S,
+    Flood,
+    JsonFormatter,
+    LostRedis,
+    TextFormatter,
+)
 
 
 class Clock:
@@ -89,3 +98,27 @@ def test_an_exception_and_what_json_does_not_know_are_texts() -> None:
 
 def test_people_read_the_facts_behind_the_text() -> None:
     assert TextFormatter().format(record(user="ada")).endswith(" user=ada")
+
+
+def lost(error: Exception, name: str = LAYER) -> logging.LogRecord:
+    why = (type(error), error, None)
+    return logging.LogRecord(name, logging.ERROR, "x.py", 1, "Unexpected exception", (), why)
+
+
+def test_a_lost_redis_is_one_warning_in_a_period(clock) -> None:
+    told = LostRedis(clock)
+    first = lost(RedisConnectionError("Connection refused"))
+    assert told.filter(first)
+    text = TextFormatter().format(first)
+    assert " WARNING " in text
+    assert text.endswith("Redis does not answer, and is asked again each second: Connection refused")
+    assert not told.filter(lost(RedisConnectionError("Connection refused")))
+    clock.now_s += PERIOD_S
+    assert told.filter(lost(RedisConnectionError("Connection refused")))
+
+
+def test_other_errors_of_the_channel_layer_and_of_others_stay_whole(clock) -> None:
+    told = LostRedis(clock)
+    for record in (lost(ValueError("no")), lost(RedisConnectionError("gone"), "backend.x")) * 2:
+        assert told.filter(record)
+        assert (record.levelno, record.msg) == (logging.ERROR, "Unexpected exception")

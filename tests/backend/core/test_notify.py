@@ -7,8 +7,11 @@ import asyncio
 import pytest
 from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
+from channels_redis.pubsub import RedisPubSubChannelLayer  # type: ignore[import-untyped]
 
-from backend.core.notify import _Teller
+from backend.core import notify
+from backend.core.notify import NoNoticesError, _Teller, following
+from tests.backend.services import redis_server
 
 
 @pytest.fixture
@@ -51,3 +54,28 @@ def test_a_notice_that_cannot_be_sent_is_logged_and_no_more(layer, monkeypatch, 
     monkeypatch.setattr(layer, "group_send", broken)
     asyncio.run(tell())
     assert "Redis has gone" in caplog.text
+
+
+@pytest.mark.parametrize("lost_before", ["new_channel", "group_add"])
+def test_a_try_to_follow_that_fails_leaves_no_channel(monkeypatch, lost_before):
+    """The layer keeps a channel, and a group, before it asks Redis."""
+
+    async def follow():
+        ask = getattr(layer, lost_before)
+
+        async def lose_redis(*arguments):
+            server.end()
+            return await ask(*arguments)
+
+        monkeypatch.setattr(layer, lost_before, lose_redis, raising=False)
+        with pytest.raises(NoNoticesError):
+            async with following("news"):
+                pass
+        assert (layer.channels, layer.groups) == ({}, {})
+        await layer.flush()
+
+    monkeypatch.setattr(notify, "PAUSE_S", 0.0)
+    with redis_server() as server:
+        layer = RedisPubSubChannelLayer(hosts=[server.url])
+        monkeypatch.setattr(notify, "get_channel_layer", lambda: layer)
+        asyncio.run(follow())

@@ -42,23 +42,24 @@ def _ask(  # noqa: PLR0913 - one question
     then: Callable[[], None] | None = None,
     refused: Callable[[], None] | None = None,
     late: Callable[[], None] | None = None,
-) -> None:
+) -> bool:
     """Forwards a command to a child; the child's answer becomes the reply (`Question`).
 
-    The client counts as echoing `topic`, unless the child refuses.
+    The client counts as echoing `topic`, unless the child refuses. Returns False if no child can take the
+    command, which is then refused at once.
     """
     child = stage.children.holder(kind)
     if child is None:
         stage.output.refuse(event, "process_died", f"The {kind} is gone.")
-        return
+        return False
     if child is stage.children.get("application") and stage.python.is_stopped:
         stage.output.refuse(event, HELD_IN_PYTHON, HELD_IN_PYTHON_TEXT, HELD_IN_PYTHON_HINT)
-        return
+        return False
     if child.is_hanging:
         if topic:
             stage.clients.echo(event.client, topic, 0.0)
         stage.output.refuse(event, NOT_ANSWERING, child.hang)
-        return
+        return False
     token = stage.questions.add(
         event.client,
         event.request,
@@ -71,6 +72,7 @@ def _ask(  # noqa: PLR0913 - one question
         late=late,
     )
     stage.children.ask(kind, message, token)
+    return True
 
 
 def _running(stage: Stage) -> Child | None:
@@ -105,14 +107,17 @@ def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpo
     def undo() -> None:
         if hold.breakpoints is data:
             hold.breakpoints = hold.given
+            if hold.given is not None and hold.given is hold.given_late:
+                tell(hold.given)  # it may have refused those, too
 
-    def tell() -> None:
-        stage.children.tell_application(child_messages.SetBreakpoints(wanted=data))
+    def tell(wanted: messages.SetBreakpoints) -> None:
+        stage.children.tell_application(child_messages.SetBreakpoints(wanted=wanted))
 
     def late() -> None:
         note()
+        hold.given_late = data
         if hold.breakpoints is data and stage.children.get("application") is application:
-            tell()  # it takes the good ones, and names the others in the log
+            tell(data)  # it takes the good ones, and names the others in the log
 
     if application is not None and not (stage.python.is_stopped or application.is_hanging):
         message = child_messages.SetBreakpoints(wanted=data)
@@ -120,7 +125,7 @@ def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpo
         return
     if application is not None:  # it takes them when it continues
         note()
-        tell()
+        tell(data)
     stage.output.send(event.client, messages.Ack(), event.request)
 
 
@@ -200,8 +205,9 @@ def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> Non
 
 
 def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
-    _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
-    stage.recording.begin(resets=True)
+    if not _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S):
+        return
+    stage.recording.begin(resets=True)  # now, so that the world begins it at its first moment
     if stage.state in HAS_APPLICATION:
         stage.past.reset(stage.recording.run)
 

@@ -54,6 +54,8 @@ class Hold:
     since_s: float | None = None
     given: messages.SetBreakpoints | None = None
     """The breakpoints that the application has."""
+    given_late: messages.SetBreakpoints | None = None
+    """Those that it has not answered in time: they are kept as if it had taken them."""
     profile_given: messages.SetProfile | None = None
     """The profile with which it was started."""
     groot2_given: int = 0

@@ -114,6 +114,20 @@ def test_a_reset_begins_another_run():
     assert first.run != second.run
 
 
+@pytest.mark.parametrize("why", ["not_answering", "process_died"])
+def test_a_reset_that_no_world_can_take_begins_no_other_run(why):
+    play = recorded()
+    before = play.session.recording.run
+    if why == "process_died":
+        del play.session.children.living["world"]
+    else:
+        world = play.session.children.living["world"]
+        world.hang, world.vitals.silent_s = "The simulated world does not answer.", 60.0
+    assert play.reply(play.command("reset_world")) == why
+    assert len(told(play, recorder_messages.BeginRun)) == 1
+    assert play.session.recording.run == before
+
+
 def test_lines_faults_and_flags_are_recorded():
     play = recorded()
     play.child_says("application", "log", level="info", text="hello", time=2.0)

@@ -219,6 +219,25 @@ def test_breakpoints_that_are_late_are_not_given_once_more_where_they_are_no_lon
     assert all(each.request is not None for each in messages_of(play, SetBreakpoints))
 
 
+def test_breakpoints_that_are_late_are_given_once_more_when_newer_ones_are_refused() -> None:
+    """The application may have refused the late ones, too; session and application agree again."""
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    play.command("set_breakpoints")
+    play.later(4.0)
+    newer = play.command("set_breakpoints", breakpoints=[{"tree_id": "Main", "node_id": "n2"}])
+    play.later(2.0)
+    first, second = messages_of(play, SetBreakpoints)
+    for asked in (first, second):
+        error = {"code": "bad_breakpoint", "message": "-"}
+        play.child_says("application", "answer", request=asked.request, error=error)
+    assert play.reply(newer) == "bad_breakpoint"
+    again = messages_of(play, SetBreakpoints)[2:]
+    assert [(each.request, each.wanted) for each in again] == [(None, first.wanted)]
+    assert play.session.hold.breakpoints == play.session.hold.given == first.wanted
+
+
 def test_breakpoints_that_are_refused_after_a_hold_has_ended_switch_nothing_on() -> None:
     play = held()
     play.command("set_breakpoints")

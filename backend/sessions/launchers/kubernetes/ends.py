@@ -23,14 +23,14 @@ __all__ = ["OF_WAITING", "Cause", "Seen", "Trouble", "address_of", "read_pod"]
 class Cause(Enum):
     """Why a pod does not start, or has ended; the value is the sentence for the user."""
 
-    NO_ROOM = "The cluster has no room for another robot now."
+    NO_ROOM = "The cluster has no room for another executor now."
     IMAGE = "The image of the executor cannot be pulled."
     CONFIG = "The container of the executor cannot be made."
-    MEMORY = "The executor took more memory than a robot may have."
+    MEMORY = "The executor took more memory than it may have."
     EVICTED = "The cluster ended the executor, to keep its node alive."
     PREEMPTED = "The cluster gave the executor's place to something more important."
     NODE_LOST = "The machine on which the executor ran is gone."
-    DEADLINE = "The executor reached the longest time that a robot may run."
+    DEADLINE = "The executor reached the longest time that it may run."
     DELETED = "Somebody deleted the executor in the cluster."
     JOB_FAILED = "The program of the evaluation's RayJob failed."
     JOB_INVALID = "The KubeRay operator refuses the RayJob of the evaluation."

@@ -105,7 +105,7 @@ def test_only_the_verbs_of_the_role_are_used(cluster: FakeCluster, launcher: Kub
             r"image of the executor cannot be pulled. \(no such tag\)",
         ),
         (waiting("InvalidImageName"), "image of the executor cannot be pulled"),
-        ({"phase": "Failed", **terminated(137, "OOMKilled")}, "more memory than a robot may have"),
+        ({"phase": "Failed", **terminated(137, "OOMKilled")}, "more memory than it may have"),
         ({"phase": "Failed", **terminated(3)}, r"ended while it started \(status 3\)"),
         (
             {"phase": "Failed", "reason": "Evicted", "message": "low on disk"},
@@ -130,7 +130,7 @@ def test_a_cluster_without_room_lets_the_session_wait(
     unschedulable = condition("PodScheduled", "False", "Unschedulable", "0/3 nodes are available")
     cluster.node = lambda of, pod: of.set_status(pod["metadata"]["name"], **unschedulable)
     with pytest.raises(
-        HostFullError, match=re.escape("no room for another robot now. (0/3 nodes are available)")
+        HostFullError, match=re.escape("no room for another executor now. (0/3 nodes are available)")
     ):
         launcher.start(spec(start_timeout_s=1))
     assert cluster.names("pods") == []
@@ -201,7 +201,7 @@ def test_a_pod_that_was_made_although_the_answer_was_lost_is_deleted(
         (
             {"phase": "Failed", **terminated(137, "OOMKilled")},
             137,
-            "The executor took more memory than a robot may have.",
+            "The executor took more memory than it may have.",
         ),
         ({"phase": "Succeeded", **terminated(0, "Completed")}, 0, ""),
         (
@@ -212,7 +212,7 @@ def test_a_pod_that_was_made_although_the_answer_was_lost_is_deleted(
         (
             {"phase": "Failed", "reason": "DeadlineExceeded"},
             UNKNOWN_EXIT,
-            "The executor reached the longest time that a robot may run.",
+            "The executor reached the longest time that it may run.",
         ),
         (
             {"phase": "Failed", "reason": "NodeLost"},

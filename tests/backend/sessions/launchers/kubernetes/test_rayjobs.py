@@ -175,7 +175,7 @@ def test_a_used_up_quota_lets_the_evaluation_wait(cluster: FakeCluster, clusters
     status = condition("ReplicaFailure", "True", "FailedCreateHeadPod", "exceeded quota: cpu")
     cluster.operator = lambda of, job: of.set_status(job["metadata"]["name"], "rayjobs", **status)
     with pytest.raises(
-        HostFullError, match=re.escape("no room for another robot now. (exceeded quota: cpu)")
+        HostFullError, match=re.escape("no room for another executor now. (exceeded quota: cpu)")
     ):
         clusters.start(evaluation(start_timeout_s=1))
     assert cluster.names("rayjobs") == []

@@ -27,6 +27,7 @@ pytestmark = [pytest.mark.timeout(1800)]
 @contextmanager
 def second_engine(folder):
     """Yields an engine with data, a bridge and containers of its own."""
+    _ip("link", "delete", BRIDGE, check=False)  # that of a test that was killed
     _ip("link", "add", BRIDGE, "type", "bridge")
     try:
         _ip("addr", "add", f"{NAME}/24", "dev", BRIDGE)
@@ -38,8 +39,8 @@ def second_engine(folder):
         shutil.rmtree(folder / "data2", ignore_errors=True)
 
 
-def _ip(*arguments):
-    subprocess.run(["ip", *arguments], check=True, capture_output=True)
+def _ip(*arguments, check=True):
+    subprocess.run(["ip", *arguments], check=check, capture_output=True)
 
 
 class FurtherHost:

@@ -17,6 +17,8 @@ export interface UserCommand {
   /** Keys that another listener handles, in the same notation: shown, but not bound here. */
   keys?: string;
   enabled?: () => boolean;
+  /** Tells the user why the command is not possible now, after its shortcut; returns whether there is anything to tell. */
+  explain?: () => boolean;
   /**
    * Runs the command. `page` is the document where the user called it: a panel can be in a window of its own.
    */

@@ -24,7 +24,10 @@ function handler(command: UserCommand) {
   return (event: KeyboardEvent) => {
     if (event.defaultPrevented || closesItself(event)) return;
     if (!command.inTextFields && isTextField(event.target)) return;
-    if (command.enabled?.() === false) return;
+    if (command.enabled?.() === false) {
+      if (command.explain?.()) event.preventDefault();
+      return;
+    }
     event.preventDefault();
     command.run((event.target as Node | null)?.ownerDocument ?? document);
   };

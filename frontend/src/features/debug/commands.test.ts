@@ -1,4 +1,6 @@
+import { notifications } from '@mantine/notifications';
 import { afterEach, expect, it, vi } from 'vitest';
+import '@/i18n/editorTexts';
 import { useCommandTable } from '@/commands/registry';
 import { bindShortcuts } from '@/commands/shortcuts';
 import { registerRunCommands } from '@/features/run/commands';
@@ -10,6 +12,7 @@ import { registerDebugCommands } from './commands';
 const undo: (() => void)[] = [];
 afterEach(() => {
   undo.splice(0).forEach((each) => each());
+  vi.restoreAllMocks();
   useSessionStore.setState(initialSession);
   useBreakpoints.setState({ list: [], areOn: true });
 });
@@ -57,4 +60,30 @@ it('a key takes a paused run one tick back, and a running one not', () => {
 it('a key switches all breakpoints off and on', () => {
   toggleBreakpoint('Main', 'a');
   expect(press('F9', { ctrlKey: true, shiftKey: true })).toEqual(['debug.switchBreakpoints']);
+});
+
+it.each([
+  [
+    'a live run',
+    { executor: 'paused', repeatableRuns: ['a'], liveRuns: ['a'] },
+    /A live run has no way back by one tick/,
+  ],
+  ['a running one', { executor: 'application_running' }, /pause the run first/],
+] as const)('the key of one tick back says why %s cannot go back', (_, state, why) => {
+  const show = vi.spyOn(notifications, 'show').mockReturnValue('');
+  useSessionStore.setState({
+    introspection: { role: 'driver' } as never,
+    ...structuredClone(state),
+  } as never);
+  expect(press('F10', { ctrlKey: true, shiftKey: true })).toEqual([]);
+  expect(show.mock.calls).toEqual([
+    [expect.objectContaining({ message: expect.stringMatching(why) as string })],
+  ]);
+});
+
+it('the key of one tick back says nothing where no program runs', () => {
+  const show = vi.spyOn(notifications, 'show').mockReturnValue('');
+  useSessionStore.setState({ executor: 'idle' });
+  expect(press('F10', { ctrlKey: true, shiftKey: true })).toEqual([]);
+  expect(show).not.toHaveBeenCalled();
 });

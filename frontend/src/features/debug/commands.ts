@@ -8,6 +8,8 @@ import {
   IconPlayerTrackPrev,
   IconHandOff,
 } from '@tabler/icons-react';
+import { notifications } from '@mantine/notifications';
+import { t } from '@/i18n';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { switchBreakpoints, useBreakpoints } from '@/store/debug/breakpoints';
 import {
@@ -22,7 +24,8 @@ import {
   stepOver,
   stepTick,
 } from '@/store/debug/debugger';
-import { canTickBack, tickBack } from '@/store/debug/tickBack';
+import { canTickBack, tickBack, whyNoTickBack } from '@/store/debug/tickBack';
+import { hasApplication } from '@/store/run/commands';
 import { useSessionStore } from '@/store/session/store';
 
 const whenHeld = { group: 'run', when: 'held', inTextFields: true, enabled: canDebug } as const;
@@ -74,6 +77,14 @@ export const heldCommands: readonly UserCommand[] = [
   },
 ];
 
+/** Shows why a run cannot go one tick back; says nothing where no program runs. */
+function explainNoTickBack(): boolean {
+  const why = whyNoTickBack();
+  if (why === null || !hasApplication()) return false;
+  notifications.show({ id: 'tick-back', color: 'yellow', message: t(`debug:tickBack.${why}`) });
+  return true;
+}
+
 const others: readonly UserCommand[] = [
   {
     id: 'debug.tickBack',
@@ -83,6 +94,7 @@ const others: readonly UserCommand[] = [
     shortcut: '$mod+Shift+F10',
     inTextFields: true,
     enabled: canTickBack,
+    explain: explainNoTickBack,
     run: () => void tickBack(),
   },
   {

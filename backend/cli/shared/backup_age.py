@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from django.db.migrations.operations.base import Operation
+    from django.db.migrations.state import ProjectState
+    from django.db.models import Field
 
 __all__ = ["applied_migrations", "require_readable"]
 
@@ -28,12 +30,16 @@ __all__ = ["applied_migrations", "require_readable"]
 _HARMLESS: Final = (
     operations.AddConstraint,
     operations.AddIndex,
-    operations.AlterField,
     operations.AlterModelManagers,
     operations.AlterModelOptions,
     operations.CreateModel,
     operations.RemoveConstraint,
     operations.RemoveIndex,
+)
+# What a field says to forms and to Python alone; the rows do not depend on it.
+_OF_FORMS: Final = frozenset(
+    {"blank", "choices", "db_index", "default", "editable", "error_messages", "help_text", "validators"}
+    | {"verbose_name"}
 )
 
 
@@ -69,7 +75,8 @@ def require_readable(migrations: Any, made_by: object, left_out: frozenset[str])
         )
     added = sorted(ours - theirs)
     for app, name in added:
-        if not theirs or not _only_adds(app, loader.disk_migrations[app, name].operations, left_out):
+        before = loader.project_state((app, name), at_end=False)
+        if not theirs or not _only_adds(app, loader.disk_migrations[app, name].operations, left_out, before):
             raise BackupError(
                 f"The backup was made by BT Studio {made_by}, before “{app} {name}”, which changes data: "
                 "restore it with that version, and upgrade then."
@@ -77,14 +84,43 @@ def require_readable(migrations: Any, made_by: object, left_out: frozenset[str])
     return bool(added)
 
 
-def _only_adds(app: str, steps: Sequence[Operation], left_out: frozenset[str]) -> bool:
-    """Returns whether the steps of a migration need no look at the rows that are in backups."""
+def _only_adds(app: str, steps: Sequence[Operation], left_out: frozenset[str], before: ProjectState) -> bool:
+    """Returns whether the steps of a migration need no look at the rows that are in backups.
+
+    `before` are the tables without these steps.
+    """
     if all(model._meta.label_lower in left_out for model in apps.get_app_config(app).get_models()):
         return True
-    return all(
-        isinstance(step, _HARMLESS) or (isinstance(step, operations.AddField) and _has_value(step))
-        for step in steps
-    )
+    for step in steps:
+        if not _is_harmless(app, step, before):
+            return False
+        step.state_forwards(app, before)
+    return True
+
+
+def _is_harmless(app: str, step: Operation, before: ProjectState) -> bool:
+    match step:
+        case operations.AddField():
+            return _has_value(step)
+        case operations.AlterField():
+            model = before.models[app, step.model_name_lower]
+            return _takes_all_values(step.field, model.fields[step.name])
+        case _:
+            return isinstance(step, _HARMLESS)
+
+
+def _takes_all_values(field: Field[Any, Any], before: Field[Any, Any]) -> bool:
+    """Returns whether the altered field takes all values of that before: it may allow null or be longer."""
+    if (before.null and not field.null) or field.deconstruct()[1] != before.deconstruct()[1]:
+        return False
+    now, then = _facts(field), _facts(before)
+    longest, was_longest = now.pop("max_length", None), then.pop("max_length", None)
+    return now == then and (longest is None or (was_longest is not None and longest >= was_longest))
+
+
+def _facts(field: Field[Any, Any]) -> dict[str, Any]:
+    """Returns what decides which values a field takes, but for null."""
+    return {name: fact for name, fact in field.deconstruct()[3].items() if name not in _OF_FORMS | {"null"}}
 
 
 def _has_value(step: operations.AddField) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from django.db import migrations, models
+from django.db import connection, migrations, models
+from django.db.migrations.loader import MigrationLoader
 
 from backend.cli.shared.backup_age import _only_adds, applied_migrations, require_readable
 from backend.cli.shared.backup_error import BackupError
@@ -38,8 +39,25 @@ def test_a_manifest_without_migrations_is_refused(nonsense):
         (migrations.AddField("blob", "new", models.IntegerField(default=1), preserve_default=False), False),
         (migrations.RunPython(migrations.RunPython.noop), False),
         (migrations.RemoveField("blob", "data"), False),
+        (migrations.AlterField("blob", "stored_at", models.CharField(max_length=300, null=True)), True),
+        (
+            migrations.AlterField(
+                "blob", "stored_at", models.CharField(max_length=200, null=True, blank=True)
+            ),
+            True,
+        ),
+        (migrations.AlterField("blob", "stored_at", models.CharField(max_length=100, null=True)), False),
+        (migrations.AlterField("blob", "stored_at", models.CharField(max_length=200)), False),
+        (
+            migrations.AlterField(
+                "blob", "stored_at", models.CharField(max_length=200, null=True, unique=True)
+            ),
+            False,
+        ),
+        (migrations.AlterField("blob", "stored_at", models.DateTimeField(null=True)), False),
     ],
 )
 def test_steps_that_need_the_rows_are_refused(step, is_harmless):
-    assert _only_adds("projects", [step], LEFT_OUT) is is_harmless
-    assert _only_adds("executor_sessions", [step], LEFT_OUT)  # nothing of it is in a backup
+    before = MigrationLoader(connection).project_state()
+    assert _only_adds("projects", [step], LEFT_OUT, before) is is_harmless
+    assert _only_adds("executor_sessions", [step], LEFT_OUT, before)  # nothing of it is in a backup

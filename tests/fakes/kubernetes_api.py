@@ -125,6 +125,10 @@ class FakeCluster:
         with self.changed:
             self.changed.notify_all()
 
+    def revive(self) -> None:
+        """Answers again, after `die`."""
+        self.is_dead = False
+
     def forget_history(self) -> None:
         """Makes all running and older watches too old, as a compaction of etcd does."""
         with self.changed:

@@ -37,12 +37,21 @@ def kubeconfig(url: str) -> str:
 
 
 class Node:
-    """Runs the container of each pod as a process, at an address of its own on this machine."""
+    """Runs the container of each pod as a process, at an address of its own on this machine.
+
+    Attributes:
+        instead: what Python runs in place of the container's program, if anything.
+        process_of: the process of each pod, by the name of the pod.
+        repository: where the programs of new containers are.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
+        self.instead: tuple[str, ...] = ()
         self.addresses: list[str] = []
         self.processes: list[subprocess.Popen[bytes]] = []
+        self.process_of: dict[str, subprocess.Popen[bytes]] = {}
+        self.repository = REPOSITORY
 
     def __enter__(self) -> Self:
         return self
@@ -69,9 +78,13 @@ class Node:
             for argument in container["args"]
         ]
         environment = {**os.environ, container["env"][0]["name"]: secret["token"]}
-        program = container.get("command", ["python", "-m", "executor.manager"])[1:]
-        process = subprocess.Popen([sys.executable, *program, *arguments], cwd=REPOSITORY, env=environment)
+        environment["PYTHONPATH"] = str(self.repository)
+        program = self.instead or container.get("command", ["python", "-m", "executor.manager"])[1:]
+        process = subprocess.Popen(
+            [sys.executable, *program, *arguments], cwd=self.repository, env=environment
+        )
         self.processes.append(process)
+        self.process_of[name] = process
         _await_port(address)
         cluster.set_status(name, phase="Running", podIP=address, conditions=[READY])
         threading.Thread(target=self._report, args=(cluster, name, process), daemon=True).start()

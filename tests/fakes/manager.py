@@ -11,15 +11,18 @@ old           listens, and knows no /watch
 held          answers that a debugger holds its tree
 mute          says something else than its port
 
-One with `--attach -` writes its standard input to its output.
+One with `--attach -` writes its standard input to its output. One with `--host=`, `--port=`, `--tls-cert=`
+and `--tls-key=` listens there, as in a pod.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import os
 import signal
+import ssl
 import subprocess
 import sys
 import threading
@@ -28,6 +31,7 @@ from pathlib import Path
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosedError
 
 
 async def echo(socket: ServerConnection) -> None:
@@ -42,15 +46,16 @@ async def echo(socket: ServerConnection) -> None:
             }
         )
     )
-    async for message in socket:
-        if message == "close":
-            await socket.close(4321, "as asked")
-        elif message == "hang":
-            time.sleep(3600)  # noqa: ASYNC251 - the loop is what hangs
-        elif message == "die":
-            os._exit(9)
-        else:
-            await socket.send(message)
+    with contextlib.suppress(ConnectionClosedError):  # a client may be killed
+        async for message in socket:
+            if message == "close":
+                await socket.close(4321, "as asked")
+            elif message == "hang":
+                time.sleep(3600)  # noqa: ASYNC251 - the loop is what hangs
+            elif message == "die":
+                os._exit(9)
+            else:
+                await socket.send(message)
 
 
 async def flood(socket: ServerConnection) -> None:
@@ -58,6 +63,14 @@ async def flood(socket: ServerConnection) -> None:
         while True:
             await socket.send(bytes(100_000))
             counter.write(b".")
+
+
+async def listen_in_pod(given: dict[str, str]) -> None:
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.load_cert_chain(given["--tls-cert"], given["--tls-key"])
+    options: Any = {"compression": None, "max_size": None, "ssl": context}
+    async with serve(echo, given["--host"], int(given["--port"]), **options):
+        await asyncio.get_running_loop().create_future()
 
 
 async def listen(kind: str, ready_fd: int) -> None:
@@ -95,6 +108,10 @@ def repeat() -> None:
 
 def main() -> None:
     kind, arguments = sys.argv[1], sys.argv[2:]
+    given = dict(argument.split("=", 1) for argument in arguments if "=" in argument)
+    if "--tls-cert" in given:
+        asyncio.run(listen_in_pod(given))
+        return
     ready_fd = int(arguments[arguments.index("--ready-fd") + 1])
     sys.stdout.write("the fake manager starts\n")
     sys.stdout.flush()

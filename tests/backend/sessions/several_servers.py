@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
 
 import psycopg
 import requests
 
-from backend.sessions.lease import CARE
-from tests.backend.services import free_port, postgresql, redis
-from tests.backend.serving import REPOSITORY, Served, serving
+from tests.backend.services import cluster as postgresql_server
+from tests.backend.services import free_port, redis_server
+from tests.backend.serving import REPOSITORY, TIMEOUT_S, Served, serving
 from tests.benchmarks.load import settings_of, sign_in
 from tests.e2e.observer import Observer
 from tests.fakes.kubernetes_api import NAMESPACE, FakeCluster
@@ -21,21 +22,40 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
-class Team:
-    """Two servers with folders of their own, and one account that is signed in."""
+DRIVEN_S = 0.5
 
-    def __init__(self, stack: ExitStack, folder: Path, cluster: FakeCluster, public_url: str = "") -> None:
-        self.database = stack.enter_context(postgresql(fsync="off"))
-        services = {
-            "BT_STUDIO_DATABASE_URL": self.database,
-            "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
-        }
+
+class Team:
+    """Two servers with folders of their own, and accounts that are signed in.
+
+    Attributes:
+        cookies: of each account.
+        cookie: that of the first one, with which `call` asks.
+        repositories: from which each server is started the next time.
+    """
+
+    def __init__(
+        self,
+        stack: ExitStack,
+        folder: Path,
+        cluster: FakeCluster,
+        public_url: str = "",
+        *,
+        people: int = 1,
+        repository: Path = REPOSITORY,
+    ) -> None:
+        self.repositories = [repository, repository]
+        # Many sockets and savers at once.
+        self.postgresql = stack.enter_context(postgresql_server(fsync="off", max_connections=120))
+        self.redis = stack.enter_context(redis_server())
+        self.database = self.postgresql.url
+        services = {"BT_STUDIO_DATABASE_URL": self.database, "BT_STUDIO_REDIS_URL": self.redis.url}
         config = folder / "kubeconfig"
         config.write_text(kubeconfig(cluster.url))
         settings, _ = settings_of(services)
         self.public_url = public_url or settings["BT_STUDIO_PUBLIC_URL"]
         settings["BT_STUDIO_PUBLIC_URL"] = self.public_url
-        self._settings = settings | {
+        self.settings = settings | {
             "KUBECONFIG": str(config),
             "BT_STUDIO_LAUNCHER": "kubernetes",
             "BT_STUDIO_POD_TEMPLATE": str(REPOSITORY / "docker/kubernetes/executor-pod.yaml"),
@@ -51,10 +71,20 @@ class Team:
             own.mkdir()
         self.servers = [self._serve(number) for number in (0, 1)]
         self.first = 0
-        ((_, self.cookie),) = sign_in(self._folders[0], settings, 1)
+        self.cookies = [cookie for _, cookie in sign_in(self._folders[0], settings, people)]
+        self.cookie = self.cookies[0]
 
     def _serve(self, number: int) -> Served:
-        own = serving(self._folders[number], "--port", str(self.ports[number]), **self._settings)
+        folder = self._folders[number]
+        log = self._stack.enter_context((folder / "server.log").open("ab"))
+        own = serving(
+            folder,
+            "--port",
+            str(self.ports[number]),
+            log=log,
+            repository=self.repositories[number],
+            **self.settings,
+        )
         return self._stack.enter_context(own)
 
     def end(self, number: int, how: signal.Signals) -> None:
@@ -63,9 +93,12 @@ class Team:
     def begin_again(self, number: int) -> None:
         self.servers[number] = self._serve(number)
 
-    def call(self, number: int, method: str, path: str, body: Any = None, key: str = "") -> Any:
+    def call(  # noqa: PLR0917 - the parts of a request
+        self, number: int, method: str, path: str, body: Any = None, key: str = "", cookie: str = ""
+    ) -> Any:
         base = self.servers[number].base
-        headers = {"Origin": base, "Cookie": self.cookie} | ({"Idempotency-Key": key} if key else {})
+        headers = {"Origin": base, "Cookie": cookie or self.cookie}
+        headers |= {"Idempotency-Key": key} if key else {}
         address = f"{base}/api/v1/{path}"
         return requests.request(method, address, json=body, headers=headers, timeout=60)
 
@@ -82,14 +115,25 @@ class Team:
                 return answer
         return answer
 
-    def watch(self, number: int, session: str) -> Observer:
-        return Observer.join(self.servers[number].base, self.cookie, session)
+    def watch(self, number: int, session: str, cookie: str = "") -> Observer:
+        return Observer.join(self.servers[number].base, cookie or self.cookie, session)
 
     def lease(self) -> tuple[str, Any]:
         """The owner of the lease for the sessions, and its end."""
+        from backend.sessions.lease import CARE  # needs Django
+
         with psycopg.connect(self.database) as connection:
             rows = connection.execute(
                 "SELECT owner, until FROM executor_sessions_lease WHERE name = %s", [CARE]
             )
             found = rows.fetchone()
             return ("", None) if found is None else (found[0], found[1])
+
+
+def await_motion(observer: Observer) -> None:
+    """Waits until the robot has driven further."""
+    observer.wait_for_sim_time(observer.sim_time() + DRIVEN_S, TIMEOUT_S)
+    end_s = time.monotonic() + TIMEOUT_S
+    while observer.distance_travelled("robot") < 0.002:
+        assert time.monotonic() < end_s
+        time.sleep(0.05)

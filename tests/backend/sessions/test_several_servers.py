@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.backend.serving import TIMEOUT_S
-from tests.backend.sessions.several_servers import Team
+from tests.backend.sessions.several_servers import Team, await_motion
 from tests.budget import count
 from tests.fakes.kubernetes_api import FakeCluster
 from tests.fakes.kubernetes_node import Node
@@ -30,7 +30,6 @@ pytestmark = [pytest.mark.simulation, pytest.mark.timeout(900)]
 PATH = "notes.txt"
 SAVES_BESIDE = 5
 PAUSE_S = 0.02
-DRIVEN_S = 0.5
 
 
 class Editor:
@@ -97,15 +96,6 @@ def drive(team: Team, project: str, session: str) -> Observer:
     observer.send("run", {"universe": {"universe": app["universe"]}, "application": application})
     await_motion(observer)
     return observer
-
-
-def await_motion(observer: Observer) -> None:
-    """Waits until the robot has driven further."""
-    observer.wait_for_sim_time(observer.sim_time() + DRIVEN_S, TIMEOUT_S)
-    end_s = time.monotonic() + TIMEOUT_S
-    while observer.distance_travelled("robot") < 0.002:
-        assert time.monotonic() < end_s
-        time.sleep(0.05)
 
 
 def await_maintenance(team: Team) -> None:

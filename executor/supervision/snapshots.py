@@ -32,7 +32,8 @@ __all__ = ["SnapshotProcesses"]
 MOST: Final = 64
 WAKE_S: Final = 5.0
 ARRIVAL_S: Final = 2.0
-WEIGH_S: Final = 5.0
+WEIGH_S: Final = 10.0
+"""How old the memory of a snapshot may be: the kernel walks its page tables, some ms of a processor."""
 Key = tuple[int, int]
 
 
@@ -42,6 +43,7 @@ class _Snapshot:
     pidfd: int
     end: socket.socket
     weighed_s: float = -1.0
+    size_bytes: int = 0
 
 
 class SnapshotProcesses:
@@ -126,29 +128,33 @@ class SnapshotProcesses:
             raise OSError(f"the snapshot answers wrongly: {error}") from error
 
     async def weigh(self) -> None:
-        """Reads the memory of the snapshot whose turn it is, if it is one's."""
+        """Reads the memory of the snapshot whose turn it is, if it is one's; reports what room is left."""
         now_s = asyncio.get_running_loop().time()
         key = min(self._there, key=lambda key: self._there[key].weighed_s, default=None)
         if key is None:
             return
         snapshot = self._there[key]
-        if snapshot.weighed_s >= 0 and now_s - snapshot.weighed_s < WEIGH_S:
+        room = memory_room()
+        if 0 <= snapshot.weighed_s > now_s - WEIGH_S:
+            if room is not None:  # it can become short within a moment
+                self._report(SnapshotWeighed(*key, snapshot.size_bytes, room))
             return
         snapshot.weighed_s = now_s
-        size = await asyncio.to_thread(private_bytes, snapshot.pid)
+        snapshot.size_bytes = await asyncio.to_thread(private_bytes, snapshot.pid)
         if key in self._there:
-            self._report(SnapshotWeighed(*key, size, memory_room()))
+            self._report(SnapshotWeighed(*key, snapshot.size_bytes, room))
 
     def reap(self, descendants: Iterable[psutil.Process]) -> None:
         """Takes the status of snapshots that ended before they arrived."""
-        own, known = os.getpid(), self.pids
+        own, known = os.getpid(), set(self.pids)
         for process in descendants:
+            if process.pid in known:
+                continue
             with contextlib.suppress(psutil.Error, OSError), process.oneshot():
                 if (
                     process.status() == psutil.STATUS_ZOMBIE
                     and process.name() == SNAPSHOT_NAME
                     and process.ppid() == own
-                    and process.pid not in known
                 ):
                     os.waitpid(process.pid, os.WNOHANG)
 

@@ -223,9 +223,11 @@ class Supervisor:
             await self._snapshots.weigh()
             there = self._descendants.look()
             self._snapshots.reap(there)
+            waiting = set(self._snapshots.pids)  # they count to no limit
+            limited = [process for process in there if process.pid not in waiting]
             for (kind, _), child in list(self._children.items()):
                 if kind != "world":
-                    child.check_limits(there)
+                    child.check_limits(limited)
             if self._reaps_all and not self._others:
                 self._reap_orphans(there)
 

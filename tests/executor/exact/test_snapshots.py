@@ -164,9 +164,9 @@ async def test_copies_of_snapshots_end_where_the_run_ended() -> None:
             await it.ticks(FIRST, 60)
             it.tell(FIRST, child_messages.SetBlackboard("", "nudge", 4))
             await it.ticks(FIRST, 200)
+            await it.until(lambda: len(it.of(FIRST, child_messages.SnapshotTaken)) >= 2)
             await it.pause(FIRST)
             taken = it.of(FIRST, child_messages.SnapshotTaken)
-            assert len(taken) >= 2
             assert taken[0].ticks < taken[-1].ticks
             state = await it.end(FIRST)
             for at, snapshot in enumerate((taken[0], taken[-1], taken[0])):

@@ -15,6 +15,7 @@ PRODUCT: Final = ("backend", "executor", "translator", "tree_gardener")
 SOURCES: Final = (*PRODUCT, "tests", "docker")
 # Packages that no source imports, each with a file and the text in it that uses the package.
 USED_BY: Final[dict[str, tuple[str, str]]] = {
+    "channels-redis": ("backend/config/settings.py", "channels_redis.pubsub"),
     "colcon-bash": ("tests/translator/package/test_colcon.py", "setup.bash"),
     "colcon-core": ("tests/translator/package/test_colcon.py", "colcon"),
     "colcon-python-setup-py": ("translator/package/templates/setup.py.j2", "setup("),
@@ -35,6 +36,7 @@ USED_BY: Final[dict[str, tuple[str, str]]] = {
     "pytest-asyncio": ("pyproject.toml", "asyncio_mode"),
     "pytest-django": ("pyproject.toml", "DJANGO_SETTINGS_MODULE"),
     "pytest-timeout": ("pyproject.toml", "timeout = "),
+    "redis": ("backend/config/settings.py", "redis.RedisCache"),
     "ros-jazzy-common-interfaces": ("executor/ros/messages.py", "from nav_msgs"),
     "ros-jazzy-rclpy": ("tree_gardener/ros.py", "rclpy"),
     "ruff": ("Makefile", "$(BIN)/ruff"),

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import gc
 import os
 import queue
 import sys
@@ -93,6 +94,8 @@ class Application:
                 return
         if not self._catch_up(start):
             return
+        # Later collections leave alone what is there now: they are short, and snapshots share its pages.
+        gc.freeze()
         self._channel.send(child_messages.ApplicationReady())
         self._breaker.arm()
         try:

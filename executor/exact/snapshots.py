@@ -8,6 +8,7 @@ snapshot then forks a copy, which makes the run again from there, and waits on. 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import random
 from dataclasses import dataclass
@@ -44,6 +45,16 @@ class Woken:
 
     channel_fd: int
     notes_fd: int
+
+
+def _give_free_memory_back() -> None:
+    """Gives the free pages of C's heap back to the system.
+
+    The run goes on using them, and its snapshot would keep each one as it was: a fifth of its memory with a
+    camera.
+    """
+    if (trim := getattr(ctypes.CDLL(None), "malloc_trim", None)) is not None:  # other C libraries have none
+        trim(0)
 
 
 class Snapshots:
@@ -109,6 +120,7 @@ class Snapshots:
         try:
             mark = stand_alone()
             renew_files()
+            _give_free_memory_back()
             theirs, ours = handover_pair()
             handover.send(self._link, number, mark, [theirs.fileno()])
             theirs.close()

@@ -48,7 +48,7 @@ class Kept:
 def surplus(
     kept: Sequence[Kept], *, draws: bool = False, ceiling_bytes: int = CEILING_BYTES, most: int = MOST
 ) -> list[Kept]:
-    """Returns the snapshots to drop, of those of all runs; they are in the order in which they were made."""
+    """Returns the snapshots to drop, of those of all runs; those of a run come in their order."""
     tips = [each for each in kept if each.is_tip]
     dropped = tips[: max(0, len(tips) - MOST_TIPS)]
     ring = [each for each in kept if not each.is_tip]

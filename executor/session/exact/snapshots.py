@@ -45,7 +45,7 @@ class _Snapshot:
 
 
 class Snapshots:
-    """The snapshots that wait, in the order in which they were made."""
+    """The snapshots that wait: those of earlier runs first, then those of the present one and its past."""
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
@@ -55,9 +55,14 @@ class Snapshots:
         self._told = ""
 
     def begin(self, child: Child) -> None:
-        """Asks a run that begins to make snapshots of itself."""
+        """Asks a run that begins to make snapshots of itself; those of its past are its own from now on."""
         self._run += 1
         self._told = ""
+        past = self._stage.past.find("")
+        own = [each for each in self._there if past is not None and _belongs(each, past)]
+        others = [each for each in self._there if each not in own]
+        own = [replace(each, kept=replace(each.kept, run=self._run)) for each in own]
+        self._there = others + sorted(own, key=lambda each: each.kept.cost_s)
         self._stage.children.tell_exact(child, child_messages.KeepSnapshots(is_on=not self._is_short))
 
     def said(self, child: Child, message: SnapshotTaken | NoSnapshots) -> None:

@@ -174,6 +174,21 @@ def test_snapshots_end_with_the_world_and_when_memory_is_short() -> None:
     assert dropped(play) == [2, 3, 4]
 
 
+def test_where_memory_is_short_a_future_that_was_left_goes_before_the_past_of_the_present() -> None:
+    play = recorded()
+    number = play.session.children.living["application"].number
+    taken(play, 1, ticks=1)
+    taken(play, 2, ticks=2, t=1.4)
+    taken(play, 3, ticks=3, t=2.0)
+    going_back(play, t=1.5)
+    arrive(play)
+    taken(play, 1, ticks=2, t=1.6, cost_s=2.5)
+    for each in (1, 2, 3):
+        assert dropped(play) == []
+        play.happens(SnapshotWeighed(number, each, 90 << 20, None))
+    assert dropped(play) == [3]
+
+
 def test_a_reason_is_sent_once() -> None:
     play = recorded()
     for _ in range(3):

@@ -4,6 +4,7 @@ import logging
 import pathlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from typing import Any, TypeVar
 
 from tree_gardener import tree_tools, users_nodes
@@ -485,6 +486,10 @@ class Tree:
     def link(self) -> None:
         """Looks up again how each node is ticked, after hooks or observers changed."""
         self._ways.link()
+
+    def linked_once(self) -> AbstractContextManager[None]:
+        """Returns a context, between two ticks, at whose end `link` takes effect once."""
+        return self._ways.linked_once()
 
     def link_around(self, uid: int | None) -> None:
         """Looks up again how one node is ticked, or all (None), after a hook came or went."""

@@ -1,5 +1,7 @@
 """The ways to tick a tree: the nodes' own methods, or generated code; and the shortest way into the root."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from tree_gardener.deep import DEEP
@@ -24,7 +26,17 @@ class Ways:
         deep: the depth beyond which ticks need more of Python's stack.
     """
 
-    __slots__ = ("_hooks", "_recorder", "_tree", "deep", "generation", "is_plain", "tick_root")
+    __slots__ = (
+        "_hooks",
+        "_is_due",
+        "_recorder",
+        "_tree",
+        "_waits",
+        "deep",
+        "generation",
+        "is_plain",
+        "tick_root",
+    )
 
     def __init__(self, tree: "Tree", hooks: Hooks, recorder: Recorder) -> None:
         self._tree = tree
@@ -34,9 +46,24 @@ class Ways:
         self.is_plain = True
         self.deep = DEEP
         self.tick_root: Execute
+        self._waits = self._is_due = False
+
+    @contextmanager
+    def linked_once(self) -> Iterator[None]:
+        """Between two ticks: `link` takes effect once, at the end."""
+        self._waits = True
+        try:
+            yield
+        finally:
+            self._waits = False
+            if self._is_due:
+                self.link()
 
     def link(self) -> None:
         """Looks up again how each node is ticked, after hooks or observers changed."""
+        self._is_due = self._waits
+        if self._waits:
+            return
         for node in self._tree.nodes:
             node.link()
         self.tick_root = self._tree.nodes[0].entry()

@@ -81,3 +81,24 @@ def test_a_hook_of_a_node_that_is_not_there_changes_nothing() -> None:
     tree, _ = made()
     tree.add_hook(before=lambda node: Status.FAILURE, node=99)
     assert tree.tick_exactly_once() is Status.SUCCESS
+
+
+def test_what_comes_within_one_context_is_linked_once_at_its_end() -> None:
+    tree, ways = made()
+    seen: list[int] = []
+    before = tree.nodes[0].ticks
+    with tree.linked_once():
+        tree.observe(lambda changes: seen.append(1))
+        tree.observe(lambda changes: seen.append(2))
+        assert tree.nodes[0].ticks is before
+    after = tree.nodes[0].ticks
+    assert after is not before
+    tree.tick_exactly_once()
+    assert seen == [1, 2]
+    with tree.linked_once():
+        pass
+    assert tree.nodes[0].ticks is after, "nothing was due"
+    remove = tree.observe(lambda changes: seen.append(3))
+    assert tree.nodes[0].ticks is not after
+    remove()
+    assert not ways.is_plain

@@ -81,14 +81,15 @@ class Applying:
         self, change: Change, applied: child_messages.Applied, follow: Callable[[Tree], None]
     ) -> messages.Error | None:
         error: messages.Error | None = None
-        try:
-            change.swap.run(node=self._node)
-        except (SwapRefusedError, TickError) as failed:
-            error = _refused(failed)
-            if not change.swap.is_done:
-                change.undo()
-                return error
-        follow(change.swap.new)
+        with change.swap.new.linked_once():
+            try:
+                change.swap.run(node=self._node)
+            except (SwapRefusedError, TickError) as failed:
+                error = _refused(failed)
+                if not change.swap.is_done:
+                    change.undo()
+                    return error
+            follow(change.swap.new)
         self._send(applied)
         if error is not None:
             text = f"The changed tree runs, but the old one did not end well: {error.message}"

@@ -50,8 +50,8 @@ class Woken:
 def _give_free_memory_back() -> None:
     """Gives the free pages of C's heap back to the system.
 
-    The run continues to use them, and its snapshot would keep each one as it was: a fifth of its memory with a
-    camera.
+    The run continues to use them, and its snapshot would keep each one as it was. With a camera that was a
+    fifth of its memory.
     """
     if (trim := getattr(ctypes.CDLL(None), "malloc_trim", None)) is not None:  # other C libraries have none
         trim(0)

@@ -81,7 +81,7 @@ export const heldCommands: readonly UserCommand[] = [
 function explainNoTickBack(): boolean {
   const why = whyNoTickBack();
   if (why === null || !hasApplication()) return false;
-  notifications.show({ id: 'tick-back', color: 'yellow', message: t(`debug:tickBack.${why}`) });
+  notifications.show({ id: `tick-back ${why}`, color: 'yellow', message: t(`debug:tickBack.${why}`) });
   return true;
 }
 

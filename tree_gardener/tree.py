@@ -12,8 +12,7 @@ from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.debugging.agent import Agent
-from tree_gardener.debugging.wiring import Wiring
-from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
+from tree_gardener.deep import call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError
 from tree_gardener.forest import Forest
@@ -454,13 +453,7 @@ class Tree:
 
         The agent chooses the nodes with its `Wiring`, at any time, also within a tick.
         """
-        if self._hooks.wiring is not None:
-            self._hooks.wiring.remove()
-        self._hooks.wiring = None if agent is None else Wiring(self, agent, self._recorder)
-        self._ways.deep = DEEP if agent is None else DEEP_ASKING
-        self.rewire()
-        if self._hooks.wiring is not None and agent is not None:
-            agent.attach(self._hooks.wiring)
+        self._ways.debug(agent)
 
     def publish_groot2(self, port: int = 1667, host: str = "127.0.0.1") -> Groot2Publisher:
         """Serves the tree to Groot2, and to other clients of its protocol, until the result is closed."""

@@ -4,12 +4,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from tree_gardener.deep import DEEP
+from tree_gardener.debugging.wiring import Wiring
+from tree_gardener.deep import DEEP, DEEP_ASKING
 from tree_gardener.generated.generation import Generation
 from tree_gardener.hooks import Hooks
 from tree_gardener.observe import Recorder
 
 if TYPE_CHECKING:
+    from tree_gardener.debugging.agent import Agent
     from tree_gardener.node import Execute
     from tree_gardener.tree import Tree
 
@@ -79,6 +81,17 @@ class Ways:
         self.tick_root = self._tree.nodes[0].entry()
         self.generation.doubt()
         self.choose()
+
+    def debug(self, agent: "Agent | None") -> None:
+        """Lets an agent choose the nodes that ask it, instead of the last one; None for nobody."""
+        hooks = self._hooks
+        if hooks.wiring is not None:
+            hooks.wiring.remove()
+        hooks.wiring = None if agent is None else Wiring(self._tree, agent, self._recorder)
+        self.deep = DEEP if agent is None else DEEP_ASKING
+        self.rewire()
+        if hooks.wiring is not None and agent is not None:
+            agent.attach(hooks.wiring)
 
     def link_around(self, uid: int | None) -> None:
         """Looks up again how one node is ticked, or all (None), after a hook came or went."""

@@ -83,7 +83,7 @@ class Ways:
         self.choose()
 
     def debug(self, agent: "Agent | None") -> None:
-        """Lets an agent choose the nodes that ask it, instead of the last one; None for nobody."""
+        """Attaches an agent in place of the last one; None detaches that."""
         hooks = self._hooks
         if hooks.wiring is not None:
             hooks.wiring.remove()

@@ -78,10 +78,16 @@ def _connect(stage: Stage, _: Struct) -> Step:
 
 
 def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
-    _progress(stage, "launch_universe", 0.0, "Starting the simulated world")
-    stage.run.universe = data
-    _aim(stage, data)
     expect(stage, data)
+    start = yield from _described(stage, data)
+    yield from _launch(stage, start)
+
+
+def _described(stage: Stage, data: messages.LaunchUniverse) -> Answered[StartWorld]:
+    """Returns the description of the world that is wanted, of which its assets are unpacked."""
+    stage.run.universe = data
+    stage.mirror.speed = data.speed
+    _aim(stage, data)
     universe, assets, file = data.universe, "", ""
     if isinstance(universe, messages.UniverseDocument):
         if universe.assets_zip_base64:
@@ -89,7 +95,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
             assets = _folder_of(unpacked, "assets")
         file = universe.file
         universe = universe.document
-    start = stage.run.world = StartWorld(
+    stage.run.world = StartWorld(
         universe=universe,
         file=file,
         assets=assets,
@@ -98,6 +104,12 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
         speed=data.speed,
         domain_id=_domain_of(stage, data),
     )
+    return stage.run.world
+
+
+def _launch(stage: Stage, start: StartWorld) -> Step:
+    """Starts a world, and waits until it is ready."""
+    _progress(stage, "launch_universe", 0.0, "Starting the simulated world")
     try:
         reply = yield from _start_world(stage, start)
     except StepFailed:
@@ -106,8 +118,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
         stage.children.replenish()
         raise
     stage.run.is_world_alone = False
-    stage.mirror.universe = reply.universe or str(data.universe)
-    stage.mirror.speed = data.speed
+    stage.mirror.universe = reply.universe or str(start.universe)
     streaming.resume_echoes(stage)
     _progress(stage, "launch_universe", 1.0, "The world is ready")
     stage.enter(State.UNIVERSE_READY)
@@ -314,15 +325,14 @@ def _run(stage: Stage, data: messages.Run) -> Step:
     stage.run.application = data.application
     _aim(stage, data.universe)
     choose(stage)
-    is_exact = stage.children.wants_exact
-    application = None if is_exact else _start_application(stage)
+    is_there = stage.state.reaches(State.UNIVERSE_READY)
+    start = None if is_there else (yield from _described(stage, data.universe))
+    application = _start_application(stage)  # an exact run builds the same world, from its beginning
     try:
         for order in orders:
             yield confirmed(order, "reset", RESET_TIMEOUT_S)
-        if not stage.state.reaches(State.UNIVERSE_READY):
-            yield from _launch_universe(stage, data.universe)
-        # An exact run builds the same world again, from its beginning.
-        application = application or _start_application(stage)
+        if start is not None:
+            yield from _launch(stage, start)
     except StepFailed:
         stage.children.drop("application")
         stage.children.replenish()

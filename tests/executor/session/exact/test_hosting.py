@@ -9,7 +9,7 @@ import pytest
 from executor import child_messages, messages
 from executor.child_messages import ForWorld, LoadWorld, StartApplication
 from executor.launching.model import LaunchPlan, NodeSpec
-from executor.session.events import Send, Spawn, StreamOpened, Tell
+from executor.session.events import Kill, Send, Spawn, StreamOpened, Tell, Unpack, Unpacked
 from executor.session.exact.hosting import choose
 from executor.session.ladder import State
 from tests.executor.session.play import APPLICATION, UNIVERSE, Play
@@ -40,6 +40,22 @@ def test_a_run_has_its_world_in_it_and_begins_it_again() -> None:
     assert (start.world.universe, start.world.seed, start.world_state) == ("walled_room", 1, b"")
     assert [e.kind for e in play.effects if isinstance(e, Spawn) and e.is_exact] == ["application"]
     assert play.session.children.host is play.session.children.get("application")
+
+
+def test_a_run_loads_while_the_world_is_launched_and_ends_with_it() -> None:
+    play = Play(obedient=False)
+    request = play.command("run", universe={**EXACT, "speed": 2.0}, application=APPLICATION)
+    (unpack,) = [effect for effect in play.effects if isinstance(effect, Unpack)]
+    play.happens(Unpacked(unpack.token, "/somewhere"))
+    (start,) = started(play)
+    assert start.world is not None
+    assert start.world.speed == 2.0
+    play.child_says("application", "ready")
+    assert play.state is State.CONNECTED
+    assert play.did(Kill) == ["application"]  # the spare for a live run
+    play.child_says("world", "error", code="launch_failed", message="No such universe.")
+    assert play.reply(request) == "launch_failed"
+    assert play.did(Kill) == ["application", "world", "application"]
 
 
 def test_a_live_run_has_not() -> None:

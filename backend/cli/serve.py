@@ -100,9 +100,10 @@ def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> N
         bind,
         data_folder,
         ended_by_interrupt,
+        load,
         migrate,
         run,
-        warm_up,
+        tidy,
         write_ready_file,
     )
     from backend.config.worker_count import workers_of
@@ -133,8 +134,14 @@ def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> N
                 threading.Thread(target=_open, args=(url,), daemon=True).start()
 
         def on_ready_alone() -> None:
+            if settings.is_team:
+                load()  # a proxy sends requests as soon as it is ready
             on_ready()
-            threading.Thread(target=warm_up, daemon=True).start()
+            threading.Thread(target=tidy if settings.is_team else load_and_tidy, daemon=True).start()
+
+        def load_and_tidy() -> None:
+            load()
+            tidy()
 
         if (count := workers_of(settings)) > 1:
             serve_by_several(listener, count, on_ready=on_ready)

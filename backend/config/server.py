@@ -259,19 +259,24 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
     return Server(config)
 
 
-def warm_up() -> None:
-    """Imports the modules of the first requests, then cleans up once a day if no other server did."""
-    from django.db import connection  # noqa: PLC0415
-
-    import backend.config.urls  # noqa: F401, PLC0415
-    import translator  # noqa: F401, PLC0415
-    from backend.config.objects import collect_daily  # noqa: PLC0415
-    from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
-    from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
+def load() -> None:
+    """Imports the modules of the first requests."""
+    import backend.config.urls  # noqa: F401, PLC0415 - slow to load
+    import translator  # noqa: F401, PLC0415 - as above
 
     # Imported objects live as long as the process: the garbage collector need not scan them.
     gc.collect()
     gc.freeze()
+
+
+def tidy() -> None:
+    """Cleans up once a day if no other server did; never returns."""
+    from django.db import connection  # noqa: PLC0415 - after Django is set up
+
+    from backend.config.objects import collect_daily  # noqa: PLC0415 - as above
+    from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415 - as above
+    from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415 - as above
+
     while True:
         try:
             with holder.chore(GARBAGE, GARBAGE_EVERY_S) as is_ours:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
-from backend.config.server import GRACE_S, run, warm_up
+from backend.config.server import GRACE_S, load, run, tidy
 from backend.core.processes.siblings import Family, answering, siblings
 
 if TYPE_CHECKING:
@@ -46,8 +46,9 @@ class Inherited(socket.socket):
 
 
 def _ready() -> None:
+    load()  # the other workers answer meanwhile
     answering()
-    threading.Thread(target=warm_up, daemon=True).start()
+    threading.Thread(target=tidy, daemon=True).start()
 
 
 def _end_with_parent(folder: Path) -> None:

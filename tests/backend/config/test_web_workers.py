@@ -22,6 +22,7 @@ import requests
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from backend.config import web_worker
 from backend.core.processes.metrics import requests as counted
 from backend.core.processes.numbers import BEAT, read_page
 from backend.core.processes.siblings import Family
@@ -182,6 +183,16 @@ def several():
             assert served.end() == -signal.SIGTERM
             assert psutil.wait_procs(children, timeout=60)[1] == []
         host.close()
+
+
+def test_a_worker_answers_when_its_modules_are_loaded(monkeypatch):
+    order, has_tidied = [], threading.Event()
+    monkeypatch.setattr(web_worker, "load", lambda: order.append("load"))
+    monkeypatch.setattr(web_worker, "answering", lambda: order.append("answering"))
+    monkeypatch.setattr(web_worker, "tidy", has_tidied.set)
+    web_worker._ready()
+    assert order == ["load", "answering"]
+    assert has_tidied.wait(TIMEOUT_S)
 
 
 def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):

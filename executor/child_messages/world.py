@@ -63,6 +63,12 @@ class MoveBody(Asked, tag="move_body"):
     pose: tuple[float, float, float, float, float, float]
 
 
+class ExpectNavigators(Message, tag="expect_navigators"):
+    """Nodes were started that may offer navigation: the world offers none while they join the graph."""
+
+    names: list[str]
+
+
 class Subscribe(Message, tag="subscribe"):
     """Subscribes a client to a stream, or changes the subscription."""
 
@@ -135,6 +141,7 @@ WorldCommand = (
     | StopRobot
     | Teleop
     | MoveBody
+    | ExpectNavigators
     | Subscribe
     | Unsubscribe
     | Pace

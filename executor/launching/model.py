@@ -17,6 +17,7 @@ class NodeSpec:
             reason.
         environment: environment variables that are set for this node only.
         file: the path of the launch file in the project; `line` is the line in it.
+        may_navigate: whether it may offer the robot's navigation, as Nav2 does.
     """
 
     id: str
@@ -28,6 +29,7 @@ class NodeSpec:
     command: tuple[str, ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
     refusal: str = ""
+    may_navigate: bool = False
 
 
 @dataclass(frozen=True)

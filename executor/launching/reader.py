@@ -14,6 +14,7 @@ from typing import Any, Final
 
 from executor.launching.find import LAUNCH_PY_REFUSAL, NotFound, find_command, find_executable, has_launch
 from executor.launching.model import LaunchPlan, NodeSpec
+from executor.launching.navigators import may_navigate
 from executor.launching.substitution import SubstitutionError, substitute, truth
 from executor.universes.document import DocumentError, Located, Problem, read_yaml
 
@@ -188,7 +189,7 @@ class _Reader:
         self._nodes.append(
             NodeSpec(
                 f"{self._file}:{line}", name, package or "", executable, self._file, line, command,
-                environment, refusal,
+                environment, refusal, may_navigate(package or "", command),
             )
         )  # fmt: skip
 

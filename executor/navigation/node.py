@@ -1,8 +1,8 @@
 """The navigation of a world as a ROS node: Nav2's actions and services for its first robot.
 
 It is off until a client of one of its names appears, or a subscriber to its map; and it stays off while
-another node offers one of them, as a real Nav2 does. It needs no thread and no waiting: `poll` handles the
-requests that arrived, and works on the goals for a moment of simulated time.
+another node offers one of them, as a real Nav2 does, or is expected to. It needs no thread and no waiting:
+`poll` handles the requests that arrived, and works on the goals for a moment of simulated time.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from executor.navigation import tasks
 from executor.navigation.forms import MAP_FRAME, FrameError, between, grid_message, path_message, pose_of
 from executor.navigation.mapping import map_of, radius_of
+from executor.navigation.others import Others
 from executor.navigation.planner import Map
 from executor.navigation.server import StepServer
 from executor.navigation.tasks import Refused, Situation, Task
@@ -29,7 +30,7 @@ from executor.ros.spin import DrainingExecutor
 from executor.world.geometry.transforms import from_xyz_rpy
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from rclpy.context import Context
 
@@ -41,6 +42,8 @@ STEP_HZ: Final = 20.0
 FEEDBACK_HZ: Final = 5.0
 LOOK_HZ: Final = 4.0
 """How often it looks for clients while it is off, and for changes of the map while it works."""
+ASKED_S: Final = 1.0
+"""The simulated time after the end of a goal in which its client has asked for the result."""
 MOVED_M: Final = 0.02
 ACTIONS: Final[dict[str, tuple[str, Begin]]] = {
     "/navigate_to_pose": ("NavigateToPose", lambda goal, at, _: tasks.Navigate(goal, at)),
@@ -92,13 +95,9 @@ class Navigation:
         self._world = world
         self._outlet = outlet
         self._context = context
-        self._node = Node(
-            "navigation",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        self._node = self._make_node()
+        self._names = [f"{name}/_action/send_goal" for name in ACTIONS] + list(SERVICES)
+        self._others = Others(self._names, MAP_TOPIC)
         self._step_due, self._look_due, self._feedback_due = Due(STEP_HZ), Due(LOOK_HZ), Due(FEEDBACK_HZ)
         self._executor: DrainingExecutor | None = None
         self._servers: list[StepServer] = []
@@ -107,6 +106,7 @@ class Navigation:
         self._poses: Any = None
         self._radius = 0.0
         self._is_stale = True
+        self._ended_s = -ASKED_S
 
     @property
     def is_on(self) -> bool:
@@ -129,6 +129,9 @@ class Navigation:
             if looks and self._is_wanted():
                 self._open()
             return
+        if looks and self._is_idle(now_s) and self._others.offer(self._node, own=1):
+            self._withdraw()
+            return
         if looks:
             self._check_map()
         self._executor.drain()
@@ -147,6 +150,12 @@ class Navigation:
         if self._executor is not None:
             self._executor.drain()
 
+    def expect(self, names: Sequence[str]) -> None:
+        """Leaves navigation to nodes that have just been started, while they join the graph."""
+        self._others.expect(names)
+        if names and self.is_on and not self._goals:
+            self._withdraw()
+
     def close(self) -> None:
         """Leaves the graph."""
         if self._executor is not None:
@@ -161,12 +170,30 @@ class Navigation:
         """Returns whether someone uses one of the names, and nobody else offers any of them."""
         if not self._world.robots:
             return False
-        names = [f"{name}/_action/send_goal" for name in ACTIONS] + list(SERVICES)
         count = self._node
-        is_used = any(count.count_clients(name) for name in names) or count.count_subscribers(MAP_TOPIC)
-        if not is_used or count.count_publishers(MAP_TOPIC):
+        is_used = any(count.count_clients(name) for name in self._names)
+        if not is_used and not count.count_subscribers(MAP_TOPIC):
             return False
-        return not any(count.count_services(name) for name in names)
+        return not self._others.are_expected(count) and not self._others.offer(count, own=0)
+
+    def _is_idle(self, now_s: float) -> bool:
+        """Returns whether no goal is under way, and clients have asked for the result of the last one."""
+        return not self._goals and not 0 <= now_s - self._ended_s < ASKED_S
+
+    def _make_node(self) -> Node:
+        return Node(
+            "navigation",
+            context=self._context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=False,
+        )
+
+    def _withdraw(self) -> None:
+        """Offers nothing any longer; `poll` looks for clients again."""
+        self.close()
+        self._servers, self._executor = [], None
+        self._node = self._make_node()
 
     def _open(self) -> None:
         from nav2_msgs import action, srv  # noqa: PLC0415 - built at set-up, may be missing
@@ -292,6 +319,7 @@ class Navigation:
 
     def _end(self, name: str, error: str = "", message: str = "") -> None:
         goal = self._goals.pop(name)
+        self._ended_s = self._world.time_s
         result = goal.server.action_type.Result()
         goal.task.answer(result, self._situation())
         if hasattr(result, "error_code"):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from executor import messages
-from executor.child_messages import Log
+from executor.child_messages import ExpectNavigators, Log
 from executor.session.events import Retire, Spawn
 
 if TYPE_CHECKING:
@@ -49,6 +49,7 @@ class LaunchNodes:
     def __init__(self) -> None:
         self._nodes: dict[str, _Node] = {}
         self._folder = ""
+        self._has_navigators = False
 
     def start(self, stage: Stage, plan: LaunchPlan) -> None:
         """Starts all nodes of the launch files."""
@@ -65,6 +66,7 @@ class LaunchNodes:
                 self._spawn(stage, node)
         if had_nodes or self._nodes:
             self._tell(stage)
+        self._tell_world(stage)
 
     def stop(self, stage: Stage) -> None:
         """Ends all nodes; each has a second in which it may end by itself."""
@@ -87,6 +89,7 @@ class LaunchNodes:
         node.restarts += 1
         self._spawn(stage, node)
         self._tell(stage)
+        self._tell_world(stage)
         return ""
 
     def said(self, stage: Stage, event: ChildSaid) -> None:
@@ -124,6 +127,7 @@ class LaunchNodes:
                 )
             )
         self._tell(stage)
+        self._tell_world(stage)
 
     def _refuse(self, stage: Stage, node: _Node) -> None:
         spec = node.spec
@@ -144,6 +148,13 @@ class LaunchNodes:
 
     def _of(self, number: int) -> _Node | None:
         return next((node for node in self._nodes.values() if node.number == number), None)
+
+    def _tell_world(self, stage: Stage) -> None:
+        """Names the nodes whose navigation replaces that of the world."""
+        running = [node.spec.name for node in self._nodes.values() if node.number and node.spec.may_navigate]
+        if running or self._has_navigators:
+            stage.children.tell_world(ExpectNavigators(running))
+        self._has_navigators = bool(running)
 
     def _tell(self, stage: Stage) -> None:
         stage.output.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from msgspec import Struct
 
     from executor.child_messages import FromWorld, WorldCommand
+    from executor.navigation.node import Navigation
     from executor.ros.graph.topics import TopicReply, Topics
     from executor.supervision.pulse import Pulse
     from executor.universes.document import Problem
@@ -56,6 +57,13 @@ class WorldCommands:
         """The token of the request under way."""
         self.loop: SimulationLoop | OutsideGraph | None = None
         self.recorder: WorldRecorder | None = None
+        self._navigation: Navigation | None = None
+        self._navigators: list[str] = []
+
+    def join(self, navigation: Navigation) -> None:
+        """Takes the navigation of the world."""
+        self._navigation = navigation
+        navigation.expect(self._navigators)
 
     def answering(self, message: Struct, work: Callable[[], None]) -> None:
         """Does what a message asks for; answers it, also where that fails."""
@@ -74,6 +82,9 @@ class WorldCommands:
 
     def obey(self, message: WorldCommand) -> None:
         """Carries out a command; its failures are exceptions, for `answering`."""
+        if isinstance(message, child_messages.ExpectNavigators):  # also before the world was started
+            self._expect(message.names)
+            return
         loop = self.loop
         if loop is None:
             self.say_error("not_started", f"The world must be started before {name_of(message)!r}.")
@@ -115,6 +126,11 @@ class WorldCommands:
         else:
             self._send(child_messages.Failed(code, text, hint))
         self._request = None
+
+    def _expect(self, names: list[str]) -> None:
+        self._navigators = names
+        if self._navigation is not None:
+            self._navigation.expect(names)
 
     @staticmethod
     def _time(loop: SimulationLoop | OutsideGraph, message: TimeMessage) -> None:

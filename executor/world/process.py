@@ -186,6 +186,7 @@ class WorldProcess:
         if (navigation := make_navigation(world, context, outlet)) is not None:
             self._close.append(navigation.close)
             loop.parts.append(navigation)
+            self._commands.join(navigation)
         self._loop = self._commands.loop = self._simulation = loop
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
 

@@ -55,6 +55,7 @@ def moved(odometry):
 
 def reach(handle):
     goal = handle.request.pose.pose.position
+    print("the navigator drives", flush=True)
     start = list(place)
     distance = math.hypot(goal.x, goal.y)
     while distance - math.hypot(place[0] - start[0], place[1] - start[1]) > 0.02:
@@ -155,6 +156,7 @@ def the_robot_drives_to_the_goal(studio: Studio) -> None:
     finished = observer.of("finished")[0]["data"]
     texts = [event["data"]["text"] for event in observer.of("log")]
     assert finished["status"] == "SUCCESS", f"{finished}; {observer.of('blackboard')[-1:]}; {texts}"
+    assert "the navigator drives" in texts, "the world navigated in its place"
     _, *place = observer.track("robot")[-1]  # the robot started at the origin
     assert math.hypot(*place[:2]) == pytest.approx(GOAL_M, abs=0.15)
     studio.picture("ros-action-reached")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -22,6 +23,7 @@ from tf2_msgs.msg import TFMessage
 
 from executor.navigation.forms import duration, path_message, stamped
 from executor.navigation.node import ACTIONS, SERVICES, code_of
+from executor.navigation.others import SETTLE_S
 from tests.executor.navigation.drive import Drive, driven
 
 if TYPE_CHECKING:
@@ -59,6 +61,37 @@ def test_it_is_off_where_another_node_offers_a_name(drive: Drive) -> None:
     for _ in range(60):
         drive.turn()
     assert not drive.navigation.is_on
+
+
+def test_it_waits_for_a_node_that_may_offer_it(drive: Drive) -> None:
+    drive.navigation.expect(["client"])
+    began_s = time.monotonic()
+    drive.client(Spin, "/spin")
+    assert time.monotonic() - began_s >= SETTLE_S
+    assert drive.navigation.is_on
+
+
+def test_it_withdraws_where_another_node_offers_a_name_after_its_last_goal(drive: Drive) -> None:
+    client = drive.client(Spin, "/spin")
+    handle = drive.send(client, Spin.Goal(target_yaw=0.5, time_allowance=duration(10.0)))
+    other = drive.node.create_service(IsPathValid, "/is_path_valid", lambda _request, response: response)
+    assert drive.result(handle).status == SUCCEEDED
+    drive.until(lambda: not drive.navigation.is_on)
+    drive.until(lambda: drive.node.count_services("/spin/_action/send_goal") == 0)
+    assert drive.node.count_services("/is_path_valid") == 1
+    drive.node.destroy_service(other)
+    drive.until(client.server_is_ready)
+    again = drive.send(client, Spin.Goal(target_yaw=0.5, time_allowance=duration(10.0)))
+    assert drive.result(again).status == SUCCEEDED
+
+
+def test_it_withdraws_at_once_for_a_node_that_has_just_been_started(drive: Drive) -> None:
+    client = drive.client(Spin, "/spin")
+    drive.navigation.expect([])
+    assert drive.navigation.is_on
+    drive.navigation.expect(["navigator"])
+    assert not drive.navigation.is_on
+    drive.until(lambda: not client.server_is_ready())
 
 
 def test_it_opens_also_while_the_world_is_paused(drive: Drive) -> None:

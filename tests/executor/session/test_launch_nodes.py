@@ -7,12 +7,14 @@ import io
 import os
 import signal
 import zipfile
+from dataclasses import replace
 from typing import Any
 
 import psutil
 
+from executor.child_messages import ExpectNavigators
 from executor.launching.model import LaunchPlan, NodeSpec
-from executor.session.events import Retire, Spawn, Unpacked
+from executor.session.events import ChildExited, Retire, Spawn, Tell, Unpacked
 from executor.session.ladder import State
 from executor.session.launch_nodes import LaunchNodes
 from tests.executor.manager.test_server import manager
@@ -85,15 +87,18 @@ async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
 
 # --- the state machine alone ----------------------------------------------------------------------
 
-PLAN = LaunchPlan((NodeSpec("a", "a", "", "a.py", "launch/a.launch.yaml", 1, ("python", "a.py")),))
+NODE = NodeSpec("a", "a", "", "a.py", "launch/a.launch.yaml", 1, ("python", "a.py"))
 
 
 class NodePlay(Play):
     """A play whose application has a launch node."""
 
+    node = NODE
+
     def answers(self, effect):
         answers = super().answers(effect)
-        return [Unpacked(a.token, a.folder, plan=PLAN) if isinstance(a, Unpacked) else a for a in answers]
+        plan = LaunchPlan((self.node,))
+        return [Unpacked(a.token, a.folder, plan=plan) if isinstance(a, Unpacked) else a for a in answers]
 
     def states(self):
         return [node.state for node in self.sent("launch_nodes")[-1].nodes]
@@ -126,6 +131,34 @@ def test_a_second_run_starts_it_again_and_a_pause_does_not_affect_it():
     assert play.did(Spawn).count("node") == 3
     assert play.sent("launch_nodes")[-1].nodes[0].restarts == 1
     assert play.state is State.APPLICATION_RUNNING
+
+
+class NavigatorPlay(NodePlay):
+    """A play whose launch node may navigate."""
+
+    node = replace(NODE, may_navigate=True)
+
+    def expected(self) -> list[list[str]]:
+        messages = [effect.message for effect in self.effects if isinstance(effect, Tell)]
+        return [message.names for message in messages if isinstance(message, ExpectNavigators)]
+
+
+def test_the_world_is_notified_of_nodes_that_may_navigate_and_of_their_ends() -> None:
+    play = NavigatorPlay()
+    play.command("run")
+    assert play.expected() == [["a"]]
+    play.command("restart_node", id="a")
+    assert play.expected() == [["a"], ["a"]]
+    node = [effect.number for effect in play.effects if isinstance(effect, Spawn) and effect.kind == "node"]
+    play.happens(ChildExited("node", node[-1], "ended with exit code 0"))
+    assert play.expected() == [["a"], ["a"], []]
+    play.command("run")
+    assert play.expected() == [["a"], ["a"], [], ["a"]]
+    play.node = NODE
+    play.command("run")
+    assert play.expected()[4:] == [[]]
+    play.command("run")
+    assert play.expected()[5:] == []
 
 
 def test_a_node_that_no_launch_file_has_is_not_restarted() -> None:

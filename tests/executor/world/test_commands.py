@@ -67,3 +67,15 @@ def test_before_its_start_a_world_obeys_nothing() -> None:
     made.loop = None
     made.answering(Pause(request="q1"), lambda: made.obey(Pause(request="q1")))
     assert (sent[0].error.code, len(sent)) == ("not_started", 1)
+
+
+def test_nodes_that_may_navigate_are_expected_also_before_its_start() -> None:
+    made, sent, _ = commands()
+    loop, made.loop = made.loop, None
+    expected: list[list[str]] = []
+    navigation: Any = SimpleNamespace(expect=expected.append)
+    made.obey(child_messages.ExpectNavigators(["navigator"]))
+    made.loop = loop
+    made.join(navigation)
+    made.obey(child_messages.ExpectNavigators([]))
+    assert (expected, sent) == ([["navigator"], []], [])

@@ -316,6 +316,7 @@ def rename(studio: Studio, name: str, to: str) -> None:
     expect(studio.at("robot-view").locator("canvas")).to_be_visible()
 
 
+@pytest.mark.long_walk
 def test_a_universe_and_a_robot_are_made_by_hand_and_run(studio: Studio):
     studio.new_from("laser_bump_and_go")
     change_a_universe(studio)

@@ -36,6 +36,7 @@ judge:
 CHECK = "n4"  # looks for an obstacle ahead
 
 
+@pytest.mark.long_walk
 def test_a_fault_is_found_by_runs_seen_in_the_worst_repaired_and_compared(
     open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
 ) -> None:

@@ -88,6 +88,7 @@ def one_tick_back(studio: Studio) -> None:
     studio.picture("one-tick-back")
 
 
+@pytest.mark.long_walk
 def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(
     open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
 ) -> None:
@@ -166,6 +167,7 @@ def compare_with_the_run_before(studio: Studio, touched: float) -> None:
     expect(studio.at("time-axis")).to_have_attribute("data-past", "true")
 
 
+@pytest.mark.long_walk
 def test_a_live_run_goes_back_and_its_branch_gets_a_name_and_goes(
     open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
 ) -> None:

@@ -177,6 +177,7 @@ def dialogues_by_keys(studio: Studio) -> None:
         focused(studio, "canvas")
 
 
+@pytest.mark.long_walk
 def test_by_mouse(shared_studio: Studio) -> None:
     studio = shared_studio
     studio.at("new-from-empty").click()

@@ -32,6 +32,7 @@ ROUNDED_S = 0.005
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
+@pytest.mark.long_walk
 def test_a_collision_is_understood_kept_and_sent(studio: Studio, browser: Browser) -> None:
     the_robot_touches_a_crate(studio)
     t = the_mark_leads_to_the_moment(studio)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
+@pytest.mark.long_walk
 def test_values_in_blocks_and_the_tree_alone(shared_studio: Studio) -> None:
     studio = shared_studio
     a_tree_that_waits_for_a_key(studio)

@@ -24,6 +24,10 @@ WITH_THE_BROWSER: Final = [
     "tests/contracts",
     "tests/tools",
     "tests/executor/exact",
+    "tests/executor/recorder",
+    "tests/executor/ros",
+    "tests/executor/session",
+    "tests/executor/world",
 ]
 # The arguments of each lane for pytest.
 LANES: Final = {

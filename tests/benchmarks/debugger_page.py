@@ -119,6 +119,7 @@ def blocks(studio: Studio) -> None:
     studio.at(f"breakpoint-{CHECK}").click()
     shown(studio, held)
     for _ in range(ROUNDS):
+        studio.expect_state("held")  # a message of its own; until it comes, the keys have no effect
         before = studio.at("held-banner").inner_text()
         studio.page.keyboard.press("F10")
         at_ms = float(studio.page.evaluate(CHANGED, ["[data-testid=held-banner]", before]))

@@ -34,6 +34,8 @@ WAKE_S: Final = 5.0
 ARRIVAL_S: Final = 2.0
 WEIGH_S: Final = 10.0
 """How old the memory of a snapshot may be: the kernel walks its page tables, some ms of a processor."""
+CHANGED_WEIGH_S: Final = 5.0
+"""The same where snapshots have come or gone since: pages that they shared may now be its own."""
 Key = tuple[int, int]
 
 
@@ -58,6 +60,7 @@ class SnapshotProcesses:
         self._there: dict[Key, _Snapshot] = {}
         self._dropped: set[Key] = set()
         self._gone: set[Key] = set()
+        self._changed_s = 0.0
 
     @property
     def pids(self) -> list[int]:
@@ -83,8 +86,10 @@ class SnapshotProcesses:
         except OSError:
             end.close()
             return
+        loop = asyncio.get_running_loop()
         self._there[key] = _Snapshot(arrival.pid, pidfd, end)
-        asyncio.get_running_loop().add_reader(pidfd, self._ended, key)
+        self._changed_s = loop.time()
+        loop.add_reader(pidfd, self._ended, key)
 
     def drop(self, key: Key) -> None:
         """Ends a snapshot, also one that has not arrived yet."""
@@ -135,7 +140,8 @@ class SnapshotProcesses:
             return
         snapshot = self._there[key]
         room = memory_room()
-        if 0 <= snapshot.weighed_s > now_s - WEIGH_S:
+        has_changed = snapshot.weighed_s < self._changed_s
+        if 0 <= snapshot.weighed_s > now_s - (CHANGED_WEIGH_S if has_changed else WEIGH_S):
             if room is not None:  # it can become short within a moment
                 self._report(SnapshotWeighed(*key, snapshot.size_bytes, room))
             return
@@ -169,6 +175,7 @@ class SnapshotProcesses:
         snapshot = self._there.pop(key)
         self._gone.add(key)
         loop = asyncio.get_running_loop()
+        self._changed_s = loop.time()
         loop.remove_reader(snapshot.pidfd)
         with contextlib.suppress(OSError):
             os.waitpid(snapshot.pid, os.WNOHANG)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from executor.session.events import SnapshotEnded, SnapshotWeighed
+from executor.supervision import snapshots
 from executor.supervision.handover import handover_pair, receive
 from executor.supervision.snapshots import MOST, SnapshotProcesses
 
@@ -109,7 +110,8 @@ async def test_a_wrong_answer_is_a_failure(answer: str) -> None:
             await it.there.wake((1, 1))
 
 
-async def test_memory_is_read_in_turn() -> None:
+async def test_memory_is_read_in_turn_and_again_after_a_change(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(snapshots, "CHANGED_WEIGH_S", 0.0)
     async with waiting() as it:
         await it.there.weigh()
         await it.start(1)
@@ -119,6 +121,11 @@ async def test_memory_is_read_in_turn() -> None:
         weighed = [event for event in it.events if isinstance(event, SnapshotWeighed)]
         assert sorted(event.snapshot for event in weighed) == [1, 2]
         assert all(event.size_bytes > 0 for event in weighed)
+        await it.start(3)
+        for _ in range(5):
+            await it.there.weigh()
+        weighed = [event for event in it.events if isinstance(event, SnapshotWeighed)]
+        assert sorted(event.snapshot for event in weighed) == [1, 1, 2, 2, 3]
 
 
 async def test_the_same_number_and_too_many_are_not_taken() -> None:

@@ -63,9 +63,17 @@ async def test_a_long_run_stays_within_its_bounds_and_goes_back() -> None:
 def sample(pid: int) -> Sample:
     """Returns what a manager and its processes use now."""
     family = psutil.Process(pid).children(recursive=True)
-    snapshots = [each.pid for each in family if each.name() == SNAPSHOT_NAME]
+    snapshots = [each.pid for each in family if is_snapshot(each)]
     pids = [pid, *(each.pid for each in family)]
     return Sample(len(snapshots), sum(map(private_bytes, snapshots)), sum(map(shared_bytes, pids)))
+
+
+def is_snapshot(process: psutil.Process) -> bool:
+    """Returns whether a process is a snapshot that has not ended meanwhile."""
+    try:
+        return process.name() == SNAPSHOT_NAME
+    except psutil.NoSuchProcess:
+        return False
 
 
 def shared_bytes(pid: int) -> int:

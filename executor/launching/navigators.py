@@ -21,7 +21,12 @@ def may_navigate(package: str, command: Sequence[str]) -> bool:
     A program that has them from another file of its own is not found.
     """
     return package.startswith(_PACKAGES) or any(
-        _INTERFACES in Path(word).read_bytes()
-        for word in command[:2]
-        if word.endswith(".py") and Path(word).is_file()
+        _has_interfaces(Path(word)) for word in command[:2] if word.endswith(".py")
     )
+
+
+def _has_interfaces(program: Path) -> bool:
+    try:
+        return program.is_file() and _INTERFACES in program.read_bytes()
+    except OSError:  # its start will say why it cannot be read
+        return False

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from executor.launching.navigators import may_navigate
 
 if TYPE_CHECKING:
@@ -23,3 +25,17 @@ def test_a_program_with_the_interfaces_of_nav2_may(tmp_path: Path) -> None:
     assert not may_navigate("", ("python3", str(other), str(own)))
     assert not may_navigate("", ("python3", str(tmp_path / "missing.py")))
     assert not may_navigate("", ())
+
+
+@pytest.mark.parametrize("denied", ["is_file", "read_bytes"])
+def test_a_program_that_cannot_be_read_is_left_to_its_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, denied: str
+) -> None:
+    program = tmp_path / "navigator.py"
+    program.write_text("import nav2_msgs\n")
+
+    def deny(_: Path) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(type(program), denied, deny)
+    assert not may_navigate("", ("python3", str(program)))

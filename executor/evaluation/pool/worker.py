@@ -37,7 +37,8 @@ POLL_S: Final = 0.05
 WALL_FACTOR: Final = 10.0
 MEMORY_BYTES: Final = 3 << 30
 MOST_BYTES: Final = 64 << 20
-TRACE_S: Final = 0.5
+# A busy machine needs a while for the trace. It is written in pieces, so its first bytes say nothing yet.
+TRACE_S: Final = 5.0
 _PR_SET_PDEATHSIG: Final = 1
 _FRAME: Final = re.compile(rb'File "((?:actions|evaluations)/[^"\n]+)", line (\d+)')
 
@@ -214,7 +215,7 @@ class _Watch:
         if trace:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self._pid, TRACE_SIGNAL)
-                _wait_for(lambda: bool(os.fstat(self._trace).st_size))
+                _wait_for(lambda: bool(_place_in(self._trace)))
         with contextlib.suppress(ProcessLookupError):
             signal.pidfd_send_signal(process, signal.SIGKILL)
 

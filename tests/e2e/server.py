@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import psutil
 
+from tests.processes import with_word
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
@@ -34,15 +36,7 @@ class Server(NamedTuple):
 
     def children(self) -> list[psutil.Process]:
         """Returns every process of a session below the server: managers, worlds, applications."""
-        below = self.process.children(recursive=True)
-        return [child for child in below if _is_of_a_session(child)]
-
-
-def _is_of_a_session(process: psutil.Process) -> bool:
-    try:
-        return process.is_running() and "executor" in " ".join(process.cmdline())
-    except psutil.NoSuchProcess:
-        return False
+        return with_word("executor", self.process.children(recursive=True))
 
 
 def command(*arguments: str, python: str = sys.executable) -> list[str]:

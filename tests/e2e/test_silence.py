@@ -14,6 +14,7 @@ from playwright.sync_api import expect
 from tests.e2e.server import DEADLINE_S, command, serving, wait_until
 from tests.e2e.studio import Studio
 from tests.executor.session_client import ROOT
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 def manager_of(server: Server) -> psutil.Process:
     """Returns the manager of the only running session."""
-    (manager,) = [child for child in server.process.children() if "executor.manager" in child.cmdline()]
+    (manager,) = with_word("executor.manager", server.process.children())
     return manager
 
 

@@ -12,6 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.server import command, wait_until
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -118,7 +119,7 @@ def test_an_unclosed_brace_in_a_port_is_marked_and_stops_the_run(studio: Studio)
 def test_a_world_that_dies_is_reported_and_the_next_run_works(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.run()
-    world = next(p for p in studio.server.children() if "executor.world" in " ".join(p.cmdline()))
+    world = with_word("executor.world", studio.server.children())[0]
     psutil.Process(world.pid).kill()
     expect(studio.at("banner")).to_contain_text(re.compile("world", re.IGNORECASE))
     studio.expect_state("connected")

@@ -13,6 +13,7 @@ import psutil
 
 from executor.session.ladder import HAS_APPLICATION, State
 from tests.executor.session_client import SessionClient, manager_process, run_data
+from tests.processes import with_word
 
 CHILDREN = ("world", "application")
 CASES = [(kind, state) for state in State for kind in CHILDREN]
@@ -47,11 +48,8 @@ class HangingSession:
 
     def child(self, kind):
         """Returns the living process of a kind, or None."""
-        for process in psutil.Process(self.manager.pid).children():
-            with contextlib.suppress(psutil.Error):
-                if f"executor.{kind}.process" in process.cmdline():
-                    return process
-        return None
+        found = with_word(f"executor.{kind}.process", psutil.Process(self.manager.pid).children())
+        return found[0] if found else None
 
     async def spare(self, kind, *, other_than=0):
         """Waits until there is a process of a kind."""

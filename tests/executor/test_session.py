@@ -12,14 +12,13 @@ import pytest
 
 from executor.messages import Poses, Scan, Scene
 from tests.executor.session_client import SessionClient, manager_process, run_data
+from tests.processes import with_word
 
 pytestmark = pytest.mark.simulation
 
 
 def child_of(manager, kind):
-    (child,) = (
-        c for c in psutil.Process(manager.pid).children() if f"executor.{kind}.process" in c.cmdline()
-    )
+    (child,) = with_word(f"executor.{kind}.process", psutil.Process(manager.pid).children())
     return child
 
 

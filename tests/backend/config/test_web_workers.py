@@ -12,7 +12,7 @@ import tempfile
 import textwrap
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 import psutil
@@ -30,6 +30,7 @@ from tests.backend.services import postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
 from tests.backend.sessions.keeper.conftest import Host
 from tests.backend.test_postgresql import PASSWORD, signed_in
+from tests.processes import command_line, with_word
 
 FIRST_COUNT = counted._places["1xx"]
 pytestmark = pytest.mark.timeout(300)
@@ -80,11 +81,9 @@ class Several:
         """The processes of the workers that run, by their numbers."""
         children = psutil.Process(self.served.process.pid).children()
         lines = {}
-        for child in children:
-            with suppress(psutil.Error):
-                line = child.cmdline()
-                if "backend.config.web_worker" in line:
-                    lines[int(line[line.index("--own") + 1])] = child
+        for child in with_word("backend.config.web_worker", children):
+            if line := command_line(child):  # it has not ended meanwhile
+                lines[int(line[line.index("--own") + 1])] = child
         return lines
 
     @contextmanager
@@ -345,12 +344,11 @@ def test_all_workers_ask_one_pool_of_processes(several):
         return several.at(number).get(address, timeout=60).status_code
 
     def pool():
-        return next(child for child in parent.children() if "backend.workers.service" in child.cmdline())
+        [found] = with_word("backend.workers.service", parent.children())
+        return found
 
     assert [translate(0), translate(1)] == [200, 200]
-    at_work = [
-        child for child in parent.children(recursive=True) if "backend.workers.worker" in child.cmdline()
-    ]
+    at_work = with_word("backend.workers.worker", parent.children(recursive=True))
     assert {process.ppid() for process in at_work} == {pool().pid}
     before = pool()
     before.kill()

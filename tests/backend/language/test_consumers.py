@@ -15,6 +15,7 @@ from websockets.exceptions import InvalidStatus
 from backend.language import consumers, places, servers
 from backend.language.messages import SOURCE_METHOD
 from tests.backend.language.conftest import GO, SOURCE, opened
+from tests.processes import with_word
 
 pytestmark = pytest.mark.django_db(transaction=True)
 FAKE = Path(__file__).parents[2] / "fakes" / "language_server.py"
@@ -150,7 +151,7 @@ def test_it_ends_with_a_reason_and_leaves_no_process(host, project, fake_server,
     with opened(host, f"/ws/projects/{project['id']}/language") as page:
         page.notify("initialized")
         assert page.ended() == code
-    assert not [p for p in psutil.Process().children(recursive=True) if str(FAKE) in p.cmdline()]
+    assert with_word(str(FAKE), psutil.Process().children(recursive=True)) == []
 
 
 def test_there_are_only_so_many(host, project, limits):

@@ -186,7 +186,7 @@ def test_definitions_and_names_of_the_project_are_followed(editor):
 
 @pytest.mark.parametrize("paths", [TEMPLATES, EXAMPLES, BEHAVIOURS], ids=["templates", "examples", "blocks"])
 def test_the_python_that_we_ship_is_understood(editor, paths):
-    """There are no findings, and each import is known. One language server reads all: its start is the cost."""
+    """No file has findings, and each import is known. One server reads all, since its start takes long."""
     for path in paths:
         is_understood(editor, path)
 

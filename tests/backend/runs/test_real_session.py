@@ -15,6 +15,7 @@ from mcap.reader import make_reader
 from websockets.sync.client import connect
 
 from tests.backend.serving import serving
+from tests.processes import with_word
 
 pytestmark = pytest.mark.simulation
 
@@ -87,9 +88,8 @@ def test_the_last_run_is_kept_by_itself_when_its_session_or_executor_or_server_e
             api.ask("DELETE", f"sessions/{session['id']}")
         assert api.last(run)["length_s"] > 0.9
         with api.running(1) as (_, run):
-            for child in psutil.Process(server.process.pid).children():
-                if "executor.manager" in child.cmdline():
-                    child.kill()
+            for child in with_word("executor.manager", psutil.Process(server.process.pid).children()):
+                child.kill()
         lost = api.last(run)
         assert lost["length_s"] > 0.5
         assert len(api.runs()) == 1

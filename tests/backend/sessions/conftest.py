@@ -13,6 +13,7 @@ from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.lifecycle import writes
 from tests.backend.accounts.conftest import person, stranger, team
+from tests.processes import command_line
 
 FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"
 
@@ -35,7 +36,9 @@ LASTING = {"backend.workers.worker", "moto.server"}
 def children():
     """Returns the children of this process, except those that last."""
     return [
-        child for child in psutil.Process().children(recursive=True) if LASTING.isdisjoint(child.cmdline())
+        child
+        for child in psutil.Process().children(recursive=True)
+        if LASTING.isdisjoint(command_line(child))
     ]
 
 

@@ -28,6 +28,7 @@ from tests.backend.sessions.several_servers import Team, await_motion
 from tests.budget import count
 from tests.fakes.kubernetes_api import FakeCluster
 from tests.fakes.kubernetes_node import Node
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -74,14 +75,6 @@ def team(tmp_path: Path, cluster: FakeCluster) -> Iterator[Team]:
 def crowd(team: Team) -> Iterator[Crowd]:
     with Crowd(team.ports) as people:
         yield people
-
-
-def runs(process: psutil.Process, program: str) -> bool:
-    """Whether a process has not ended, and runs a program."""
-    try:
-        return program in process.cmdline()
-    except psutil.NoSuchProcess:
-        return False
 
 
 class Storm:
@@ -164,7 +157,7 @@ class Storm:
 
     def children(self, page: Page, program: str) -> list[psutil.Process]:
         """Processes that a manager has started, the oldest first: spares are younger."""
-        found = [each for each in self.manager(page).children() if runs(each, program)]
+        found = with_word(program, self.manager(page).children())
         return sorted(found, key=psutil.Process.create_time)
 
     def kill_child(self, page: Page, program: str) -> list[Page]:

@@ -20,6 +20,7 @@ from tests.backend.serving import serving
 from tests.budget import count
 from tests.executor.hanging import ROOT
 from tests.executor.session_client import SessionClient, run_data
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from tests.backend.serving import Served
@@ -78,7 +79,7 @@ class HeldRun:
         assert await self.page.ask("run", run_data()) == "ack"
         await self.page.event("held")
         children = psutil.Process(self.server.process.pid).children()
-        [self.manager] = [each for each in children if "executor.manager" in each.cmdline()]
+        [self.manager] = with_word("executor.manager", children)
         self.family = [self.manager, *self.manager.children(recursive=True)]
 
     async def is_held(self) -> None:

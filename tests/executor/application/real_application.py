@@ -16,6 +16,7 @@ from executor.manager.programs import session_programs
 from executor.ros.environment import ros_environment
 from executor.supervision.processes import Program
 from tests.executor.session_client import TOKEN, SessionClient
+from tests.processes import with_word
 
 ROOT = Path(__file__).parents[3]
 HEAD = """import py_trees
@@ -66,8 +67,7 @@ async def session(*, limits=None, mute_after_s=float("inf")):
         await client.close()
     finally:
         await manager.close()
-        living = [p for p in psutil.Process().children(recursive=True) if p.status() != psutil.STATUS_ZOMBIE]
-        assert [p for p in living if "channel-fd" in " ".join(p.cmdline())] == []
+        assert with_word("channel-fd", psutil.Process().children(recursive=True)) == []
 
 
 async def second_run_works(client):

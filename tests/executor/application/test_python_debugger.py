@@ -16,6 +16,7 @@ from executor.debug_adapter.framing import framed
 from executor.manager.allowance import BURST, COSTS, RATE_HZ
 from tests.budget import count
 from tests.executor.application.real_application import action, app, run_data, session
+from tests.processes import with_word
 
 COUNT = action("""
 def initialise(self):
@@ -198,7 +199,7 @@ async def test_a_process_that_is_killed_while_held_leaves_the_ladder_true(who: s
         await debugger.event("stopped")
         await client.event("state-changed", lambda d: d["state"] == "held")
         at = len(client.events)
-        [process] = [p for p in psutil.Process().children() if f"executor.{MODULES[who]}" in p.cmdline()]
+        [process] = with_word(f"executor.{MODULES[who]}", psutil.Process().children())
         process.kill()
         state = "application_running" if who == "adapter" else "visualization_ready"
         await client.event("state-changed", lambda d: d["state"] == state, after=at)
@@ -223,7 +224,7 @@ async def test_a_foreign_program_without_the_token_is_refused():
     async with session() as client:
         debugger = await begin(client, {"line": ADDS})
         await debugger.event("stopped")
-        [own] = [p for p in psutil.Process().children() if "executor.debug_adapter.process" in p.cmdline()]
+        [own] = with_word("executor.debug_adapter.process", psutil.Process().children())
         [listener] = [c for c in own.net_connections("tcp") if c.status == psutil.CONN_LISTEN]
         assert listener.laddr.ip == HOST
         assert not any(len(word) == 64 for word in own.cmdline())

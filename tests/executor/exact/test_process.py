@@ -23,6 +23,7 @@ from executor.manager.programs import session_programs
 from executor.recorder.cdr import decode
 from executor.supervision.copies import SNAPSHOT_NAME
 from tests.executor.session_client import ROOT, TOKEN, SessionClient, app_zip, manager_process, run_data
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -271,8 +272,7 @@ async def test_a_live_run_follows_an_exact_one():
         await ready(client, exact())
         at = await ready(client, run_data())
         await client.event("tick", lambda d: d["n"] > 5, after=at)
-        commands = [" ".join(p.cmdline()) for p in psutil.Process(manager.pid).children()]
-        assert not any(process.__name__ in command for command in commands)
+        assert with_word(process.__name__, psutil.Process(manager.pid).children()) == []
         await client.close()
 
 

@@ -35,6 +35,7 @@ from tests.executor.exact.exact_runs import app_folder, hashing_app, start_messa
 from tests.executor.exact.random_projects import random_project
 from tests.executor.exact.test_process import exact, ready
 from tests.executor.session_client import SessionClient, manager_process
+from tests.processes import with_word
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
@@ -140,10 +141,7 @@ async def runs() -> AsyncIterator[Runs]:
         yield it
     finally:
         await it.supervisor.close()
-        left = [
-            p for p in psutil.Process().children(recursive=True) if "executor.exact" in " ".join(p.cmdline())
-        ]
-        assert left == []
+        assert with_word("executor.exact", psutil.Process().children(recursive=True)) == []
 
 
 def test_no_process_is_forked_while_another_thread_of_ours_works(monkeypatch: pytest.MonkeyPatch) -> None:

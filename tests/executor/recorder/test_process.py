@@ -26,6 +26,7 @@ from executor.recorder.ordering import SILENT_S
 from executor.recorder.process import LATE_S, LATER_S
 from executor.recorder.reader import RecordReader
 from tests.executor.session_client import TOKEN, SessionClient, app_zip, manager_process, run_data
+from tests.processes import with_word
 
 pytestmark = pytest.mark.simulation
 
@@ -47,9 +48,7 @@ class Forward(py_trees.behaviour.Behaviour):
 
 
 def child_of(manager, kind):
-    (child,) = (
-        c for c in psutil.Process(manager.pid).children() if f"executor.{kind}.process" in c.cmdline()
-    )
+    (child,) = with_word(f"executor.{kind}.process", psutil.Process(manager.pid).children())
     return child
 
 

@@ -20,6 +20,7 @@ from executor.session.launch_nodes import LaunchNodes
 from tests.executor.manager.test_server import manager
 from tests.executor.session.play import Play
 from tests.executor.session_client import SessionClient
+from tests.processes import with_word
 
 TALKER = "import sys, time\nprint('hello from', sys.argv[1], flush=True)\ntime.sleep(3600)\n"
 LAUNCH = """
@@ -40,7 +41,7 @@ def run_with(launch, **files):
 
 
 def processes_of(word):
-    return [p for p in psutil.Process().children(recursive=True) if any(word in a for a in p.cmdline())]
+    return with_word(word, psutil.Process().children(recursive=True))
 
 
 async def test_nodes_live_with_the_application_and_are_listed_with_their_output():

@@ -17,6 +17,7 @@ from executor.child_messages import name_of
 from executor.session.events import ChildExited, ChildLooked, ChildSaid, Kill, Retire, Spawn, Tell
 from executor.supervision.processes import Limits, Program
 from executor.supervision.supervisor import Supervisor
+from tests.processes import with_word
 
 ROOT = Path(__file__).parents[3]
 FAKE = ROOT / "tests" / "fakes" / "child.py"
@@ -29,8 +30,7 @@ def program(habit, **limits):
 def fakes_alive():
     """Returns the fake children that still live."""
     children = psutil.Process().children(recursive=True)
-    living = [p for p in children if p.is_running() and p.status() != psutil.STATUS_ZOMBIE]
-    return [p for p in living if FAKE.name in " ".join(p.cmdline())]
+    return with_word(FAKE.name, children)
 
 
 class Stage:

@@ -18,7 +18,6 @@ PASSWORD = "Correct-horse-9"
 # queries.
 PART = (
     "tests/backend/projects/storage",
-    "tests/backend/projects/storage/test_writes.py",
     "tests/backend/projects/test_after_commit_writes.py",
     "tests/backend/accounts/test_sharing.py",
     "tests/backend/test_query_budgets.py",

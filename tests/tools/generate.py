@@ -26,6 +26,8 @@ GENERATORS: Final = (
     [sys.executable, "-m", "backend.config.reference"],
     ["npm", "run", "--silent", "--prefix", "frontend", "generate"],
     [sys.executable, "-m", "tests.contracts.public_names"],
+    # The pages that Django renders have the colours of the IDE; they are served without its build.
+    ["cp", "frontend/src/ui/tokens.css", "backend/accounts/static/accounts/tokens.css"],
 )
 
 

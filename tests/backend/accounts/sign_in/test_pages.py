@@ -10,7 +10,7 @@ IDE = REPOSITORY / "frontend" / "src" / "ui" / "tokens.css"
 
 
 def test_the_pages_have_the_colours_of_the_ide():
-    assert OURS.read_text() == IDE.read_text(), f"copy {IDE} to {OURS}"
+    assert OURS.read_text() == IDE.read_text(), f"run `make generate`: it copies {IDE} to {OURS}"
 
 
 def test_every_text_exists_in_every_language():

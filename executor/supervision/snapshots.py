@@ -32,10 +32,12 @@ __all__ = ["SnapshotProcesses"]
 MOST: Final = 64
 WAKE_S: Final = 5.0
 ARRIVAL_S: Final = 2.0
-WEIGH_S: Final = 10.0
+WEIGH_S: Final = 30.0
 """How old the memory of a snapshot may be: the kernel walks its page tables, some ms of a processor."""
-CHANGED_WEIGH_S: Final = 5.0
-"""The same where snapshots have come or gone since: pages that they shared may now be its own."""
+GROWING_WEIGH_S: Final = 5.0
+"""The same for the one from which the run continues: what that writes now is left to the snapshot."""
+MOST_WEIGHED: Final = 3
+"""So many are read at most in one turn: a run that is as fast as possible makes some in each second."""
 Key = tuple[int, int]
 
 
@@ -44,8 +46,11 @@ class _Snapshot:
     pid: int
     pidfd: int
     end: socket.socket
+    made_s: float
     weighed_s: float = -1.0
     size_bytes: int = 0
+    has_changed: bool = False
+    """Whether pages that it shared may have become its own since its memory was read."""
 
 
 class SnapshotProcesses:
@@ -60,7 +65,7 @@ class SnapshotProcesses:
         self._there: dict[Key, _Snapshot] = {}
         self._dropped: set[Key] = set()
         self._gone: set[Key] = set()
-        self._changed_s = 0.0
+        self._growing: Key | None = None
 
     @property
     def pids(self) -> list[int]:
@@ -87,8 +92,8 @@ class SnapshotProcesses:
             end.close()
             return
         loop = asyncio.get_running_loop()
-        self._there[key] = _Snapshot(arrival.pid, pidfd, end)
-        self._changed_s = loop.time()
+        self._there[key] = _Snapshot(arrival.pid, pidfd, end, loop.time())
+        self._run_continues_from(key)
         loop.add_reader(pidfd, self._ended, key)
 
     def drop(self, key: Key) -> None:
@@ -128,27 +133,29 @@ class SnapshotProcesses:
         if arrival is None:
             raise OSError("the snapshot has ended")
         try:
-            return AdoptedProcess(arrival)
+            process = AdoptedProcess(arrival)
         except ValueError as error:
             raise OSError(f"the snapshot answers wrongly: {error}") from error
+        self._run_continues_from(key)
+        return process
 
     async def weigh(self) -> None:
-        """Reads the memory of the snapshot whose turn it is, if it is one's; reports what room is left."""
+        """Reads the memory of the snapshots whose turn it is, if it is one's; reports what room is left."""
         now_s = asyncio.get_running_loop().time()
-        key = min(self._there, key=lambda key: self._there[key].weighed_s, default=None)
-        if key is None:
-            return
-        snapshot = self._there[key]
         room = memory_room()
-        has_changed = snapshot.weighed_s < self._changed_s
-        if 0 <= snapshot.weighed_s > now_s - (CHANGED_WEIGH_S if has_changed else WEIGH_S):
-            if room is not None:  # it can become short within a moment
+        due = self._due(now_s)[:MOST_WEIGHED]
+        if not due:
+            if room is not None and self._there:  # it can become short within a moment
+                key, snapshot = next(iter(self._there.items()))
                 self._report(SnapshotWeighed(*key, snapshot.size_bytes, room))
             return
-        snapshot.weighed_s = now_s
-        snapshot.size_bytes = await asyncio.to_thread(private_bytes, snapshot.pid)
-        if key in self._there:
-            self._report(SnapshotWeighed(*key, snapshot.size_bytes, room))
+        for key in due:
+            if (there := self._there.get(key)) is None:  # it ended while another one was read
+                continue
+            there.weighed_s, there.has_changed = now_s, False
+            there.size_bytes = await asyncio.to_thread(private_bytes, there.pid)
+            if key in self._there:
+                self._report(SnapshotWeighed(*key, there.size_bytes, room))
 
     def reap(self, descendants: Iterable[psutil.Process]) -> None:
         """Takes the status of snapshots that ended before they arrived."""
@@ -171,11 +178,33 @@ class SnapshotProcesses:
                 self.drop(key)
             await asyncio.sleep(0.005)
 
+    def _run_continues_from(self, key: Key | None) -> None:
+        if self._growing in self._there:
+            self._there[self._growing].has_changed = True  # for the last time
+        self._growing = key
+
+    def _due(self, now_s: float) -> list[Key]:
+        """Returns the snapshots whose memory may have changed; those that were read the longest ago first."""
+
+        def is_due(key: Key) -> bool:
+            snapshot = self._there[key]
+            oldest_s = GROWING_WEIGH_S if key == self._growing else WEIGH_S
+            return snapshot.has_changed or max(snapshot.made_s, snapshot.weighed_s) <= now_s - oldest_s
+
+        return sorted(filter(is_due, self._there), key=lambda key: self._there[key].weighed_s)
+
     def _ended(self, key: Key) -> None:
+        keys = list(self._there)
+        at = keys.index(key)
+        # Only snapshots that follow each other share a page: what one of them has left is its neighbour's.
+        before, after = keys[max(0, at - 1) : at], keys[at + 1 : at + 2]
+        for neighbour in before + after:
+            self._there[neighbour].has_changed = True
+        if key == self._growing:
+            self._growing = before[0] if before else None
         snapshot = self._there.pop(key)
         self._gone.add(key)
         loop = asyncio.get_running_loop()
-        self._changed_s = loop.time()
         loop.remove_reader(snapshot.pidfd)
         with contextlib.suppress(OSError):
             os.waitpid(snapshot.pid, os.WNOHANG)

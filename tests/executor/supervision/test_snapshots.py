@@ -110,22 +110,46 @@ async def test_a_wrong_answer_is_a_failure(answer: str) -> None:
             await it.there.wake((1, 1))
 
 
-async def test_memory_is_read_in_turn_and_again_after_a_change(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(snapshots, "CHANGED_WEIGH_S", 0.0)
-    async with waiting() as it:
+async def weighed(it: Waiting) -> list[int]:
+    """Returns the snapshots whose memory is due to be read now, in that order."""
+    it.events.clear()
+    for _ in range(5):
         await it.there.weigh()
+    found = [event for event in it.events if isinstance(event, SnapshotWeighed)]
+    assert all(event.size_bytes > 0 for event in found)
+    return [event.snapshot for event in found]
+
+
+async def test_memory_is_read_where_pages_may_have_become_a_snapshots_own() -> None:
+    async with waiting() as it:
+        assert await weighed(it) == []
+        await it.start(1)
+        assert await weighed(it) == []
+        await it.start(2)
+        assert await weighed(it) == [1], "the run writes into pages of the second now"
+        await it.start(3)
+        await it.start(4)
+        await it.start(5)
+        assert await weighed(it) == [2, 3, 4]
+        it.there.drop((1, 2))
+        await it.until(SnapshotEnded(1, 2))
+        assert await weighed(it) == [1, 3], "they follow it, or it follows them"
+        it.there.drop((1, 5))
+        await it.until(SnapshotEnded(1, 5))
+        assert await weighed(it) == [4]
+        await it.start(6)
+        assert await weighed(it) == [4], "the run wrote into its pages after the fifth had ended"
+
+
+async def test_memory_is_read_again_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
+    async with waiting() as it:
         await it.start(1)
         await it.start(2)
-        for _ in range(5):
-            await it.there.weigh()
-        weighed = [event for event in it.events if isinstance(event, SnapshotWeighed)]
-        assert sorted(event.snapshot for event in weighed) == [1, 2]
-        assert all(event.size_bytes > 0 for event in weighed)
-        await it.start(3)
-        for _ in range(5):
-            await it.there.weigh()
-        weighed = [event for event in it.events if isinstance(event, SnapshotWeighed)]
-        assert sorted(event.snapshot for event in weighed) == [1, 1, 2, 2, 3]
+        assert await weighed(it) == [1]
+        monkeypatch.setattr(snapshots, "GROWING_WEIGH_S", 0.0)
+        assert set(await weighed(it)) == {2}
+        monkeypatch.setattr(snapshots, "WEIGH_S", 0.0)
+        assert set(await weighed(it)) == {1, 2}
 
 
 async def test_the_same_number_and_too_many_are_not_taken() -> None:

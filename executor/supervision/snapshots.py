@@ -47,6 +47,8 @@ class _Snapshot:
     pidfd: int
     end: socket.socket
     made_s: float
+    parent: Key | None
+    """The snapshot before it on the way of the run that made it, if that is there."""
     weighed_s: float = -1.0
     size_bytes: int = 0
     has_changed: bool = False
@@ -92,7 +94,7 @@ class SnapshotProcesses:
             end.close()
             return
         loop = asyncio.get_running_loop()
-        self._there[key] = _Snapshot(arrival.pid, pidfd, end, loop.time())
+        self._there[key] = _Snapshot(arrival.pid, pidfd, end, loop.time(), self._growing)
         self._run_continues_from(key)
         loop.add_reader(pidfd, self._ended, key)
 
@@ -194,15 +196,15 @@ class SnapshotProcesses:
         return sorted(filter(is_due, self._there), key=lambda key: self._there[key].weighed_s)
 
     def _ended(self, key: Key) -> None:
-        keys = list(self._there)
-        at = keys.index(key)
-        # Only snapshots that follow each other share a page: what one of them has left is its neighbour's.
-        before, after = keys[max(0, at - 1) : at], keys[at + 1 : at + 2]
-        for neighbour in before + after:
-            self._there[neighbour].has_changed = True
-        if key == self._growing:
-            self._growing = before[0] if before else None
         snapshot = self._there.pop(key)
+        # Only snapshots that follow each other share a page: what one of them has left is its neighbour's.
+        for other, each in self._there.items():
+            if each.parent == key:
+                each.parent, each.has_changed = snapshot.parent, True
+            elif other == snapshot.parent:
+                each.has_changed = True
+        if key == self._growing:
+            self._growing = snapshot.parent
         self._gone.add(key)
         loop = asyncio.get_running_loop()
         loop.remove_reader(snapshot.pidfd)

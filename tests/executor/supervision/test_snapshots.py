@@ -146,6 +146,20 @@ async def test_memory_is_read_where_pages_may_have_become_a_snapshots_own(
         assert await weighed(it) == [4], "the run wrote into its pages after the fifth had ended"
 
 
+async def test_memory_of_two_ways_is_read_where_they_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("WEIGH_S", "GROWING_WEIGH_S"):
+        monkeypatch.setattr(snapshots, name, math.inf)
+    async with waiting() as it:
+        for number in (1, 2, 3):
+            await it.start(number)
+        it.there._run_continues_from((1, 1))  # it was woken
+        await it.start(4)
+        assert await weighed(it) == [1, 2, 3]
+        it.there.drop((1, 4))
+        await it.until(SnapshotEnded(1, 4))
+        assert await weighed(it) == [1], "the third is on another way"
+
+
 async def test_memory_is_read_again_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(snapshots, "WEIGH_S", math.inf)
     monkeypatch.setattr(snapshots, "GROWING_WEIGH_S", math.inf)

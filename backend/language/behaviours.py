@@ -6,8 +6,10 @@ with containers the user's own container.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import signal
 import subprocess
 import sys
 from functools import partial
@@ -24,11 +26,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from backend.accounts.models import User
+    from backend.core.processes.stops import Stop
 
-    Run = Callable[[str], str]
+    Run = Callable[[str, Stop], str]
     """Runs the tests of a text, and returns the text of the answer; "" if there is none."""
 
 DEADLINE_S: Final = 90.0
+CHILD: Final = "executor.tools.behaviours"
 NEEDS_PYTHON: Final = "needs_python"
 _MISSING: Final = "This server has no containers, and without them it runs no Python of tests."
 _Text = Annotated[str, Meta(max_length=100_000)]
@@ -68,43 +72,65 @@ def runner(user: User) -> Run:
     Raises:
         CheckerUnavailableError: this server cannot.
     """
-    if environment().launcher == "docker":
+    if environment().has_containers:
         return partial(tools.run_behaviours, user)
-    if environment().mode == "team":
+    if environment().is_team:
         raise CheckerUnavailableError(_MISSING)
     return run_beside
 
 
-def run_beside(text: str) -> str:
-    """Runs the tests in a child of this process, which gets nothing of its environment."""
-    try:
-        done = subprocess.run(
-            [sys.executable, "-m", "executor.tools.behaviours"],
-            cwd=REPOSITORY,
-            env={key: os.environ[key] for key in ("PATH", "LANG", "LC_ALL") if key in os.environ},
-            input=text.encode(),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            timeout=DEADLINE_S,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return ""
-    return done.stdout.decode(errors="replace") if done.returncode == 0 else ""
+def run_beside(text: str, stop: Stop) -> str:
+    """Runs the tests in a child of this process, which gets nothing of its environment.
+
+    Raises:
+        StoppedError: the tests were ended before.
+    """
+    with subprocess.Popen(
+        [sys.executable, "-m", CHILD],
+        cwd=REPOSITORY,
+        env={key: os.environ[key] for key in ("PATH", "LANG", "LC_ALL") if key in os.environ},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as child:
+        number = os.pidfd_open(child.pid)  # `communicate` frees the number of the process
+        end = partial(_end, number)
+        try:
+            stop.bind(end)
+            output, _ = child.communicate(text.encode(), DEADLINE_S)
+        except subprocess.TimeoutExpired:
+            return ""
+        finally:
+            stop.release()
+            end()
+            os.close(number)
+    return output.decode(errors="replace") if child.returncode == 0 else ""
 
 
-def completed(report: dict[str, Any], job: dict[str, Any], run: Run) -> dict[str, Any]:
+def _end(number: int) -> None:
+    """Ends the child; the processes of its tests end with it."""
+    with contextlib.suppress(ProcessLookupError):
+        signal.pidfd_send_signal(number, signal.SIGKILL)
+
+
+def needs_python(report: dict[str, Any]) -> bool:
+    """Returns whether tests of a report are left that need Python."""
+    return any(test["outcome"] == NEEDS_PYTHON for test in report["tests"])
+
+
+def completed(report: dict[str, Any], job: dict[str, Any], run: Run, stop: Stop) -> dict[str, Any]:
     """Returns a report of tests with the results of those that need Python; those without one are not run.
 
     Raises:
         CheckerUnavailableError: there is no answer.
+        StoppedError: the tests were ended before.
     """
     left = [test for test in report["tests"] if test["outcome"] == NEEDS_PYTHON]
     if not left:
         return report
     asked = {"job": job, "run": [[test["file"], test["name"]] for test in left]}
     try:
-        found = msgspec.json.decode(run(json.dumps(asked)) or "null", type=_Answer)
+        found = msgspec.json.decode(run(json.dumps(asked), stop) or "null", type=_Answer)
     except (msgspec.DecodeError, UnicodeError) as error:
         raise CheckerUnavailableError("The process of the tests gave no answer.") from error
     by = {(result.file, result.name): result for result in found.results}

@@ -24,14 +24,17 @@ from channels.db import database_sync_to_async
 
 from backend.config.environment import environment
 from backend.core.problems import NotFoundError
-from backend.core.processes.siblings import siblings
+from backend.core.tasks import ended
 from backend.ingress.sockets import ID, Call, Closed
-from backend.language.addresses import PROJECT, Addresses, ForeignAddressError, path_of
 from backend.language.errors import UnavailableError
-from backend.language.framing import FramingError, Unframer, framed
-from backend.language.messages import for_page, for_server, source_asked
+from backend.language.folder import SUFFIXES
 from backend.language.places import launcher
+from backend.language.protocol.addresses import PROJECT, Addresses, ForeignAddressError, path_of
+from backend.language.protocol.framing import FramingError, Unframer, framed
+from backend.language.protocol.messages import for_page, for_server, source_asked
+from backend.language.waiting import enter, placed
 from backend.projects.api.notices import notices_of
+from backend.projects.documents import checking
 from backend.projects.storage import queries
 from backend.projects.storage.access import Need
 
@@ -62,18 +65,21 @@ Following = Callable[[], Awaitable[dict[str, Any]]]
 
 async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Serves one page until either side ends."""
-    place = siblings.take("language server", environment().max_language_servers)
-    if place is None:
-        return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
+    ticket = enter(call.user)
+    if ticket is None:
+        return Closed(TOO_MANY, "Too many editors wait for the language server.")
     try:
-        async with notices_of(UUID(call.address[1])) as following:
-            return await _serve(Page(UUID(call.address[1]), call.user, receive, send), following)
+        async with placed(ticket, receive, send) as rest:
+            if rest is None:
+                return None
+            async with notices_of(UUID(call.address[1])) as following:
+                return await _serve(Page(UUID(call.address[1]), call.user, rest, send), following)
     except NotFoundError:
         return Closed(NO_SUCH_PROJECT, "There is no such project.")
     except UnavailableError as error:
         return Closed(UNAVAILABLE, str(error))
     finally:
-        place.give_back()
+        ticket.give_back()
 
 
 async def _serve(page: Page, following: Following) -> Closed | None:
@@ -88,7 +94,11 @@ async def _serve(page: Page, following: Following) -> Closed | None:
 
 
 def _contents(page: Page) -> dict[str, bytes]:
-    return queries.contents(queries.project(page.project_id, user=page.user, need=Need.WRITE))
+    project = queries.project(page.project_id, user=page.user, need=Need.WRITE)
+    files = [file for path, file in queries.existing_files(project).items() if path.endswith(SUFFIXES)]
+    if sum(file.size for file in files) > checking.MOST_CHECKED:
+        raise UnavailableError("The Python of this project is too large for help with it.")
+    return queries.data_of(files)
 
 
 class Page(NamedTuple):
@@ -123,9 +133,7 @@ class Relay:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
             return await next(task for task in tasks if task in done)
         finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            await ended(*tasks)
 
     async def _from_page(self) -> Closed | None:
         while True:

@@ -17,6 +17,23 @@ class PythonRefusedError(StudioError):
     title = "The Python cannot be read"
 
 
+class NoTestsError(StudioError):
+    """None of the user's tests of the project waits or runs."""
+
+    status = 404
+    code = "no_tests"
+    title = "There are no tests to end"
+
+
+class TestsEndedError(StudioError):
+    """The user has ended the tests before they were done."""
+
+    __test__ = False
+    status = 409
+    code = "tests_ended"
+    title = "The tests were ended"
+
+
 class CheckerUnavailableError(StudioError):
     """No formatter or linter is available at the moment."""
 

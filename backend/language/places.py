@@ -23,9 +23,9 @@ def launcher() -> Launcher:
     Raises:
         UnavailableError: this server offers no language servers.
     """
-    if environment().launcher == "docker":
+    if environment().has_containers:
         return ContainerLauncher()
-    if environment().mode == "team":
+    if environment().is_team:
         raise UnavailableError(_MISSING)
     return ProcessLauncher()
 
@@ -36,8 +36,8 @@ def checker(user: User) -> ruff.Run:
     Raises:
         CheckerUnavailableError: this server offers no checker.
     """
-    if environment().launcher == "docker":
+    if environment().has_containers:
         return partial(tools.run_ruff, user)
-    if environment().mode == "team":
+    if environment().is_team:
         raise CheckerUnavailableError(_MISSING)
     return ruff.run_beside

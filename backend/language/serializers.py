@@ -56,3 +56,14 @@ class FormattedSerializer(serializers.Serializer[dict[str, object]]):
 
     source = serializers.CharField()  # type: ignore[assignment]
     findings = FindingSerializer(many=True)
+
+
+class TestTurnSerializer(serializers.Serializer[dict[str, object]]):
+    """The turn of tests with Python that wait for a place."""
+
+    position = serializers.IntegerField(
+        allow_null=True, help_text="Place in the queue, from 1, while tests wait; null if none wait."
+    )
+    waits_for_own = serializers.BooleanField(
+        help_text="Whether they wait until other tests of their user end, not until the server has room."
+    )

@@ -24,17 +24,22 @@ from backend.sessions.lifecycle.writes import launcher
 from backend.sessions.manager.address import open_socket, open_sync_socket
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from websockets.asyncio.client import ClientConnection
 
     from backend.accounts.models import User
+    from backend.core.processes.stops import Stop
 
 _NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
 ANSWER_S: Final = 15.0
 TESTS_S: Final = 90.0
+UPLOADS_S: Final = 100.0
 # If the tools are just ending, the next attempt finds them ended and starts them again.
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
 _MAX_BYTES: Final = 16 << 20
+_MAX_MADE_BYTES: Final = 64 << 20
 addresses: Final[dict[str, str]] = {}
 """The addresses of opened tools, by their ids."""
 
@@ -49,7 +54,7 @@ def token(made_id: str) -> str:
     return hmac.new(settings.SECRET_KEY.encode(), f"tools {made_id}".encode(), hashlib.sha256).hexdigest()
 
 
-def _address(made_id: str, *, is_known_good: bool) -> str:
+def address_of(made_id: str, *, is_known_good: bool) -> str:
     """Returns the address of the tools. Calls the launcher, unless the known address can still be used."""
     if not is_known_good or made_id not in addresses:
         limit_s = environment().session_start_timeout_s
@@ -77,7 +82,7 @@ async def open_editor(user: User) -> ClientConnection:
     problem: Exception = TimeoutError()
     for attempt in range(_ATTEMPTS):
         try:
-            find = sync_to_async(_address, thread_sensitive=False)
+            find = sync_to_async(address_of, thread_sensitive=False)
             address = await find(made_id, is_known_good=attempt == 0)
             return await open_socket(address, "language", ping_interval=None, **_options(made_id))
         except HostFullError as error:
@@ -100,23 +105,50 @@ def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None,
     return answer["status"], answer["output"]
 
 
-def run_behaviours(user: User, text: str) -> str:
+def run_behaviours(user: User, text: str, stop: Stop) -> str:
     """Runs behaviour tests in a user's tools; returns the answer of `executor.tools.behaviours`.
 
     Raises:
         CheckerUnavailableError: the tools cannot be started, or do not answer.
+        StoppedError: the tests were ended before.
     """
-    return _ask(user, "tests", text, TESTS_S)
+    return _ask(user, "tests", text, TESTS_S, opened=stop.bind)
 
 
-def _ask(user: User, what: str, text: str, limit_s: float) -> str:
-    """Sends a text to a user's tools, and returns their answer."""
+def run_upload(user: User, parts: Iterable[bytes], opened: Callable[[Callable[[], None]], None]) -> bytes:
+    """Imports from an upload in a user's tools; returns the answer of `executor.uploads`.
+
+    Args:
+        user: the user.
+        parts: the header, a line feed and the upload; they are sent one after the other, once.
+        opened: is called with what ends the work, once the tools are reached.
+
+    Raises:
+        CheckerUnavailableError: the tools cannot be started, or do not answer.
+    """
+    return _ask(user, "uploads", parts, UPLOADS_S, most=_MAX_MADE_BYTES, opened=opened).encode()
+
+
+def _ask(  # noqa: PLR0913 - one a limit
+    user: User,
+    what: str,
+    text: str | Iterable[bytes],
+    limit_s: float,
+    *,
+    most: int = _MAX_BYTES,
+    opened: Callable[[Callable[[], None]], None] | None = None,
+) -> str:
+    """Sends a message to a user's tools, and returns their answer. What comes in parts is sent once."""
     made_id = tools_id(user)
     problem: Exception = TimeoutError()
+    is_last = False
     for attempt in range(_ATTEMPTS):
         try:
-            address = _address(made_id, is_known_good=attempt == 0)
-            with open_sync_socket(address, what, **_options(made_id)) as socket:
+            address = address_of(made_id, is_known_good=attempt == 0)
+            with open_sync_socket(address, what, **_options(made_id) | {"max_size": most}) as socket:
+                if opened is not None:
+                    opened(socket.close)
+                is_last = not isinstance(text, str)
                 socket.send(text)
                 answer = socket.recv(timeout=limit_s)
                 return answer if isinstance(answer, str) else answer.decode()
@@ -126,5 +158,7 @@ def _ask(user: User, what: str, text: str, limit_s: float) -> str:
             raise CheckerUnavailableError("Too many people edit Python on this server just now.") from error
         except (OSError, WebSocketException) as error:
             problem = error
+            if is_last:
+                break
             time.sleep(_PAUSE_S * attempt)
     raise CheckerUnavailableError("The user's tools do not answer.") from problem

@@ -13,7 +13,8 @@ import pytest
 from websockets.exceptions import InvalidStatus
 
 from backend.language import consumers, places, servers
-from backend.language.messages import SOURCE_METHOD
+from backend.language.protocol.messages import SOURCE_METHOD
+from backend.projects.documents import checking
 from tests.backend.language.conftest import GO, SOURCE, opened
 from tests.processes import with_word
 
@@ -113,6 +114,12 @@ def test_it_names_no_file_of_the_machine(host, with_actions):
         assert page.ended() == 1003
 
 
+def test_more_python_than_is_checked_gets_no_help(host, with_actions, monkeypatch):
+    monkeypatch.setattr(checking, "MOST_CHECKED", 10)
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        assert page.ended() == consumers.UNAVAILABLE
+
+
 def test_nobody_else_gets_one(host, with_actions):
     path = f"/ws/projects/{with_actions}/language"
     with pytest.raises(InvalidStatus), opened(host, path, origin="http://evil.example"):
@@ -161,7 +168,7 @@ def test_there_are_only_so_many(host, project, limits):
 
 
 def test_a_team_server_without_containers_says_that_there_is_none(host, with_actions, monkeypatch):
-    without = type("Team", (), {"mode": "team", "launcher": "process"})
+    without = type("Team", (), {"is_team": True, "has_containers": False})
     monkeypatch.setattr(places, "environment", lambda: without)
     with opened(host, f"/ws/projects/{with_actions}/language") as page:
         assert page.ended() == consumers.UNAVAILABLE

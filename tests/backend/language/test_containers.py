@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from backend.language import consumers, tools
-from backend.language.messages import SOURCE_METHOD
+from backend.language.protocol.messages import SOURCE_METHOD
 from backend.sessions.lifecycle import writes
 from tests.backend.language.conftest import GO, SOURCE, opened
 from tests.backend.sessions.keeper.conftest import Host

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pytest
 
-from backend.language import ruff
+from backend.language import ruff, tools
 from backend.language.containers import ContainerLauncher
 from backend.language.errors import CheckerUnavailableError, UnavailableError
 from backend.language.places import checker, launcher
@@ -22,5 +24,9 @@ def test_a_team_has_it_in_containers_or_not_at_all(team, settings_of, person) ->
         launcher()
     with pytest.raises(CheckerUnavailableError):
         checker(ada)
-    settings_of(launcher="docker")
-    assert isinstance(launcher(), ContainerLauncher)
+    for with_containers in ("docker", "kubernetes"):
+        settings_of(launcher=with_containers)
+        assert isinstance(launcher(), ContainerLauncher)
+        run = checker(ada)
+        assert isinstance(run, partial)
+        assert run.func is tools.run_ruff

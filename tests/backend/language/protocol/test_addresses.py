@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from backend.language.addresses import Addresses, ForeignAddressError, path_of
+from backend.language.protocol.addresses import Addresses, ForeignAddressError, path_of
 
 SOURCES = {
     "python": "/opt/lib/python3.11",

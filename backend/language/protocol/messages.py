@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import Any, Final
 
+from backend.language.protocol.docstrings import readable
+
 Message = dict[str, Any]
 
 _FROM_PAGE: Final = frozenset(
@@ -99,17 +101,18 @@ def _cleaned(value: Any) -> Any:
     """Removes paths of this machine from texts that are shown to users."""
     if isinstance(value, dict):
         return {
-            key: _text(each) if key in {"value", "message", "documentation"} else _cleaned(each)
+            key: _text(each, key) if key in {"value", "message", "documentation"} else _cleaned(each)
             for key, each in value.items()
         }
     return [_cleaned(each) for each in value] if isinstance(value, list) else value
 
 
-def _text(value: Any) -> Any:
+def _text(value: Any, key: str) -> Any:
     if not isinstance(value, str):
         return _cleaned(value)
     value = _CLASS.sub(r"```python\nclass \1", value)
-    return _FILE_LINK.sub(r"\1", _LOOKED_IN.sub("", value))
+    value = _FILE_LINK.sub(r"\1", _LOOKED_IN.sub("", value))
+    return value if key == "message" else readable(value)
 
 
 def _error(message_id: Any, code: int, text: str) -> Message:

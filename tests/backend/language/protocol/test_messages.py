@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.language.messages import for_page, for_server
+from backend.language.protocol.messages import for_page, for_server
 
 ROOT = "file:///files"
 

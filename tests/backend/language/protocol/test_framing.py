@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from backend.language.framing import MAX_BODY_BYTES, FramingError, Unframer, framed
+from backend.language.protocol.framing import MAX_BODY_BYTES, FramingError, Unframer, framed
 
 
 @given(st.lists(st.binary(max_size=40), max_size=6), st.integers(1, 30))

@@ -175,8 +175,6 @@ class ApplicationDebugger:
             self._is_attached = False
             self._tree.debug(None)
 
-    # --- commands ---------------------------------------------------------------------------------
-
     def _attach(self) -> Debugger:
         if not self._is_attached:
             self._is_attached = True
@@ -239,8 +237,6 @@ class ApplicationDebugger:
         if uid > len(nodes) or nodes[uid - 1].path != path:
             raise _RefusedError("unknown_node", f"The running tree has no node '{path}'.", RUN_AGAIN)
         return nodes[uid - 1]
-
-    # --- holding ----------------------------------------------------------------------------------
 
     def _hold(self, stop: Stop) -> None:
         """Holds the tree until a command lets it continue."""

@@ -3,60 +3,75 @@
 from __future__ import annotations
 
 import math
-import reprlib
+from itertools import islice
 from typing import Any, Final
+
+from tree_gardener.descriptions import readable, text_of
 
 __all__ = ["preview", "text_of"]
 
 TEXT_CHARACTERS: Final = 500
 ITEMS: Final = 50
-ARRAY_ITEMS: Final = 20
+_DEPTH: Final = 3
+_EXACT: Final = 2**53
+"""The integers of a browser are exact up to this one."""
 
-_short = reprlib.Repr()
-_short.maxlist = _short.maxtuple = _short.maxdict = _short.maxset = _short.maxdeque = 10
-_short.maxstring = _short.maxother = 200
-_short.maxlevel = 3
+
+class _OtherError(Exception):
+    """A value is not small and plain."""
 
 
 def preview(value: Any) -> tuple[Any, bool]:
-    """Returns a value that can be written as JSON, and whether it is a preview of the original."""
-    if _is_plain(value, depth=3):
-        return value, False
-    return text_of(value), True
+    """Returns a value that can be written as JSON, and whether it is a preview of the original.
 
-
-def text_of(value: Any) -> str:
-    """Returns a short text that shows a value, whatever it is."""
+    A number or a text of a derived class, as numpy's, is returned as the plain one that it is.
+    """
     try:
-        return _describe(value)[:TEXT_CHARACTERS]
-    except Exception as error:
-        return f"<{type(value).__name__}; its repr raised {type(error).__name__}>"
+        return _plain(value, _DEPTH), False
+    except _OtherError:
+        return text_of(value, TEXT_CHARACTERS), True
 
 
-def _is_plain(value: Any, depth: int) -> bool:
-    match value:
-        case None | bool():
-            return True
-        case int():
-            return -(2**53) < value < 2**53  # the exact integers of a browser
-        case float():
-            return math.isfinite(value)
-        case str():
-            return len(value) <= TEXT_CHARACTERS
-        case list() | tuple() | dict() if depth and len(value) <= ITEMS:
-            values = value.values() if isinstance(value, dict) else value
-            return _has_text_keys(value) and all(_is_plain(item, depth - 1) for item in values)
-    return False
+def _plain(value: Any, depth: int) -> Any:
+    kind = type(value)
+    if value is None or kind is bool:
+        return value
+    if kind.__module__ == "numpy" and hasattr(kind, "itemsize") and hasattr(kind, "item") and not value.shape:
+        return _scalar(value.item())
+    if issubclass(kind, (int, float, str)):
+        return _scalar(value)
+    if not depth:
+        raise _OtherError
+    if issubclass(kind, dict) and dict.__len__(value) <= ITEMS:
+        pairs = list(dict.items(value))
+        return {_key(key): _plain(item, depth - 1) for key, item in pairs}
+    if issubclass(kind, list) and list.__len__(value) <= ITEMS:
+        return [_plain(item, depth - 1) for item in islice(list.__iter__(value), ITEMS)]
+    if issubclass(kind, tuple) and tuple.__len__(value) <= ITEMS:
+        return tuple(_plain(item, depth - 1) for item in tuple.__iter__(value))
+    raise _OtherError
 
 
-def _has_text_keys(value: Any) -> bool:
-    return not isinstance(value, dict) or all(isinstance(key, str) for key in value)
+def _scalar(value: Any) -> Any:
+    """Returns a number or a text as one of Python's own class, without a method of the user."""
+    kind = type(value)
+    if value is None or kind is bool:
+        return value
+    if issubclass(kind, int) and -_EXACT < (number := int.__int__(value)) < _EXACT:
+        return number
+    if issubclass(kind, float) and math.isfinite(real := float.__float__(value)):
+        return real
+    if issubclass(kind, str) and str.__len__(value) <= TEXT_CHARACTERS:
+        text = str.__str__(value)
+        if readable(text) == text:
+            return text
+    raise _OtherError
 
 
-def _describe(value: Any) -> str:
-    shape, kind = getattr(value, "shape", None), getattr(value, "dtype", None)
-    if isinstance(shape, tuple) and kind is not None and math.prod(shape) > ARRAY_ITEMS:
-        return f"array {'×'.join(map(str, shape))} of {kind}"
-    if hasattr(value, "get_fields_and_field_types") and hasattr(value, "width") and hasattr(value, "height"):
-        return f"{type(value).__name__} {value.width}×{value.height}"
-    return _short.repr(value)
+def _key(key: Any) -> str:
+    if not issubclass(type(key), str):
+        raise _OtherError
+    text = str.__str__(key)
+    if readable(text) != text:
+        raise _OtherError
+    return text

@@ -19,12 +19,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
 from executor.application.host import serve, start_listener
-from executor.application.python_debugger import PythonDebugger, trace
+from executor.application.python.debugger import PythonDebugger, trace
 from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.run_inputs import done_by
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from executor.application.changes.program import Program
     from executor.application.debugging import ApplicationDebugger
     from executor.application.debugging import Wanted as DebuggerCommand
@@ -32,7 +34,6 @@ if TYPE_CHECKING:
     from executor.application.recording import ApplicationRecorder
     from executor.application.report import Report
     from executor.application.ros import ApplicationGraph
-    from executor.application.zeros import Zeros
     from executor.supervision.channel import Channel
     from executor.supervision.pulse import Pulse
     from tree_gardener import Status, TickError, Tree
@@ -66,12 +67,13 @@ class Application:
         self._breaker = Breaker(self._locator)
         pulse.locate = self._locator.beat_place
         self._program: Program | None = None
-        self._python_debugger = PythonDebugger(pulse, channel.send)
+        self._python_debugger = PythonDebugger(pulse, channel.send, self._report_hold_in_python)
         self._runner: Runner | None = None
         self._recorder: ApplicationRecorder | None = None
         self._debugger: ApplicationDebugger | None = None
         self._profile: ApplicationProfile | None = None
-        self._zeros: Zeros | None = None
+        self._stops_held = False
+        """Whether a robot stops while the tree is held; one outside does not wait."""
         self._connect_by_s: float | None = None
         self._begin_s: float | None = None
         """The time until it resumes, where the clock may still be that of before."""
@@ -129,8 +131,6 @@ class Application:
         """Sends what the tree has to report."""
         self._channel.send(message)
 
-    # --- commands ---------------------------------------------------------------------------------
-
     def _start_listener(self) -> None:
         start_listener(self._channel, self._take)
 
@@ -171,16 +171,14 @@ class Application:
         """Runs what is due, or waits a moment for it."""
         self._graph.spin_once(SPIN_S)
 
-    # --- held by the debugger ---------------------------------------------------------------------
-
     def serve_held(self) -> None:
         """Obeys the session while the tree is held; callbacks and timers of ROS do not run."""
         self._pulse.moved()
         self._reporter.flush()
         if self._recorder is not None:
             self._recorder.pump()
-        if self._zeros is not None:
-            self._zeros.send()
+        if self._stops_held:
+            self._graph.node.commanded.stop()
         with contextlib.suppress(queue.Empty):
             self._obey(self._commands.get(timeout=SPIN_S))
 
@@ -273,6 +271,13 @@ class Application:
             error = debugger.obey(message)
         self._channel.send(child_messages.Answer(request=message.request, error=error))
 
+    def _report_hold_in_python(self, frame: FrameType) -> None:
+        """Reports how far the tick has come in which the program will be held."""
+        tree = self._runner.tree if self._runner is not None else None
+        node = self._locator.node_of(frame)
+        if tree is not None and tree.is_ticking and node is not None:
+            self._reporter.held_in_python(tree, node)
+
     def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
         """Writes an entry; returns why that is not possible, or ""."""
         from executor.application.changes.written_entry import write  # noqa: PLC0415 - as all of the engine
@@ -314,8 +319,6 @@ class Application:
             self._recorder.follow(tree)
         if self._profile is not None:
             self._profile.follow(tree)
-
-    # --- loading ----------------------------------------------------------------------------------
 
     def _redirect_output(self) -> None:
         from executor.application.console import Console  # noqa: PLC0415
@@ -363,7 +366,6 @@ class Application:
         from executor.application.debugging import ApplicationDebugger  # noqa: PLC0415
         from executor.application.profiling import ApplicationProfile  # noqa: PLC0415
         from executor.application.recording import ApplicationRecorder  # noqa: PLC0415
-        from executor.application.zeros import Zeros  # noqa: PLC0415
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
         self._groot.follow(tree)
@@ -377,10 +379,11 @@ class Application:
             on_error=start.on_error,
             finished=self._on_finished,
             fault=self._reporter.raised,
+            halted=self._graph.node.commanded.stop,
         )
         self._debugger = ApplicationDebugger(self._runner, self._channel.send, self)
         self._reporter.take_held_s = self._debugger.take_held_s
-        self._zeros = Zeros(self._graph.node) if start.outside else None
+        self._stops_held = start.outside
         self._debugger.start(start.breakpoints)
         tree.observe(self._reporter.ticked)
         self._recorder = ApplicationRecorder(tree, self._now, os.environ.pop(ADDRESS_VARIABLE, ""))
@@ -406,8 +409,6 @@ class Application:
         if self._profile is not None and self._recorder is not None:
             self._profile.leave_out(held_s)
             self._recorder.leave_out(held_s)
-
-    # --- running ----------------------------------------------------------------------------------
 
     def _now(self) -> float:
         if self._begin_s is not None:
@@ -445,6 +446,10 @@ class Application:
         except Interrupted as interrupted:
             self._reporter.hangs(f"{interrupted.place} did not return and was interrupted", interrupted.place)
             self._end_broken("The tick did not return.")
+        except (Exception, SystemExit) as error:
+            assert self._runner is not None  # noqa: S101 - nothing of actions runs before
+            self._runner.fail(error)
+            raise Ended from None
         except BaseException as error:
             self._reporter.broke_out("exception", error, self._locator.place_of_error(error))
             self._end_broken("An action broke out of its tick.")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import time
-import traceback
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
@@ -12,6 +11,8 @@ from executor.application.last_tick import LastTick
 from executor.application.preview import preview
 from executor.messages import BlackboardEntry, TreeNode
 from tree_gardener import BlackboardChange, LoadError, Status, TickError
+from tree_gardener.debugging.debugger import lead_to
+from tree_gardener.errors import describe, traceback_of
 from tree_gardener.stubs import stubs_sentence, unwritten
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ _NAMES: Final[dict[Status, NodeStatus]] = {
 Report = (
     child_messages.Tree
     | child_messages.Tick
+    | child_messages.HeldInPython
     | child_messages.Blackboard
     | child_messages.Log
     | child_messages.Fault
@@ -87,6 +89,7 @@ class Reporter:
         self._entries: dict[tuple[str, str], BlackboardChange] = {}
         self._entries_due_s = 0.0
         self._ticks_due_s = 0.0
+        self._forced: list[int] = []
         self._faults_s: dict[tuple[str, str], float] = {}
         self._stubs = ""
         self._last = LastTick()
@@ -146,7 +149,10 @@ class Reporter:
             self._told[entry.scope, entry.key] = entry.value
         held_s = self.take_held_s()
         has_past_changed = self._last.take(changes)
-        if changes.changed or changes.flashed or has_past_changed or now_s >= self._ticks_due_s:
+        has_forced_changed = changes.forced != self._forced
+        self._forced = changes.forced
+        is_news = changes.changed or changes.flashed or has_past_changed or has_forced_changed
+        if is_news or now_s >= self._ticks_due_s:
             self._ticks_due_s = now_s + IDLE_TICK_INTERVAL_S
             self._send(
                 child_messages.Tick(
@@ -156,6 +162,7 @@ class Reporter:
                     flashed=_named(changes.flashed),
                     duration_ms=max(0.0, changes.duration_s - held_s) * 1000.0,
                     past=_named(self._last.past.items()),
+                    forced=changes.forced,
                 )
             )
         self.flush()
@@ -171,15 +178,24 @@ class Reporter:
 
     def held(self, tree: Tree) -> None:
         """Reports the entries that a held tick has written; only another value counts as written."""
-        for board in tree.boards:
-            for key, entry in board.entries.items():
-                place = board.path, key
-                if place not in self._told or self._told[place] is not entry.value:
-                    self._told[place] = entry.value
-                    self._entries[place] = BlackboardChange(
-                        *place, entry.type_name, entry.value, removed=False, writer_uid=0
-                    )
+        entries = {
+            (board.path, key): (entry.type_name, entry.value)
+            for board in tree.boards
+            for key, entry in board.entries.items()
+        }
+        entries.update(tree.outside_entries())
+        for place, (kind, value) in entries.items():
+            if place not in self._told or self._told[place] is not value:
+                self._told[place] = value
+                self._entries[place] = BlackboardChange(*place, kind, value, removed=False, writer_uid=0)
         self.flush(now=True)
+
+    def held_in_python(self, tree: Tree, node: Node) -> None:
+        """Reports a tree within a tick, at a node whose Python is held."""
+        statuses = _named((each.uid, each.status) for each in tree.nodes if each.status is not Status.IDLE)
+        lead = list(lead_to(node))
+        self._send(child_messages.HeldInPython(node.uid, lead, tree.tick_number, statuses))
+        self.held(tree)
 
     def flush(self, *, now: bool = False) -> None:
         """Sends the changed entries of the blackboard, at a limited rate; immediately if `now` is set."""
@@ -228,11 +244,7 @@ class Reporter:
 
     def broke_out(self, kind: FaultKind, error: BaseException, place: Place) -> None:
         """Reports an exception that no tick handles: `sys.exit` in an action, or an error of BT Studio."""
-        message = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        if isinstance(error, SystemExit):
-            message = f"the action called sys.exit({error.code!r})"
-        text = "".join(traceback.format_exception(error))
-        self._fault(kind, message, **_place(place) | {"traceback": text})
+        self._fault(kind, describe(error), **_place(place) | {"traceback": traceback_of(error)})
 
     def hangs(self, message: str, place: Place) -> None:
         """Reports a tick that does not return."""
@@ -276,7 +288,7 @@ def _place(place: Place) -> dict[str, Any]:
 
 
 def _cause_text(error: BaseException) -> str:
-    return "".join(traceback.format_exception(error.__cause__)) if error.__cause__ else ""
+    return traceback_of(error.__cause__) if error.__cause__ else ""
 
 
 def _hint(cause: BaseException | None) -> str:

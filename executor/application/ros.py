@@ -14,6 +14,7 @@ from rosgraph_msgs.msg import Clock
 
 from executor.ros.default_context import DefaultContext
 from executor.ros.environment import ports_of_its_own
+from executor.ros.shared_topics import await_commands
 from executor.ros.spin import PatientExecutor
 from tree_gardener.ros_node import ActionNode, MainThreadGroup
 
@@ -37,7 +38,7 @@ class ApplicationGraph(Protocol):
     domain_id: int
 
     @property
-    def node(self) -> Node:
+    def node(self) -> ActionNode:
         """The node of the actions."""
 
     def now(self) -> float:
@@ -93,6 +94,7 @@ class Graph:
             self.node.create_timer(WALL_PERIOD_S, self._take_wall_time, callback_group=group)
         self._executor = PatientExecutor(context=self._context)
         self._executor.add_node(self.node)
+        self._leave: Callable[[], None] = (lambda: None) if outside else await_commands(self.node)
 
     def now(self) -> float:
         """Returns the simulated time in s."""
@@ -125,6 +127,7 @@ class Graph:
 
     def close(self) -> None:
         """Leaves the graph."""
+        self._leave()
         self._executor.shutdown(timeout_sec=0.2)
         self.node.close()
         self._default.close()

@@ -109,8 +109,6 @@ class AttachedFile:
             self._write(self._tree.end_step)
         self._file.close()
 
-    # --- what the log writes to ---
-
     def record(self, topic: str, name: str, fields: dict[str, Any]) -> None:
         """Writes a message."""
         self._file.writer.record(topic, name, fields)

@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Guard", "Hung"]
 
+BEAT: Final = b"."
+END: Final = b"e"
+"""The last message: a process that an action forked may hold the pipe open for longer than the run."""
 BEAT_S: Final = 0.25
 STUBBORN_S: Final = 2.0
 GOODBYE_S: Final = 1.0
@@ -92,6 +95,7 @@ class Guard:
         self._is_over.set()
         self._thread.join()
         assert self._process.stdin is not None  # noqa: S101 - it was asked for
+        self._say(END)
         with suppress(OSError):
             self._process.stdin.close()
         self._process.wait()
@@ -124,7 +128,7 @@ class Guard:
         clock = time.pthread_getcpuclockid(self._main)
         before_s, ran_s = time.monotonic(), time.clock_gettime(clock)
         while not self._is_over.wait(BEAT_S):
-            self._beat()
+            self._say(BEAT)
             now_s, cpu_s = time.monotonic(), time.clock_gettime(clock)
             gap_s = min(now_s - before_s, LONGEST_GAP_S)
             is_at_work = cpu_s - ran_s >= BUSY_SHARE * gap_s
@@ -137,10 +141,10 @@ class Guard:
             if idle_s >= END_AFTER_S or stuck_s >= LOADING_S:
                 self._end(stuck_s)
 
-    def _beat(self) -> None:
+    def _say(self, what: bytes) -> None:
         assert self._process.stdin is not None  # noqa: S101 - it was asked for
         with suppress(OSError):  # without the process the guard still has its thread
-            self._process.stdin.write(b".")
+            self._process.stdin.write(what)
             self._process.stdin.flush()
 
     def _end(self, for_s: float) -> None:
@@ -187,16 +191,14 @@ def _node_of(frame: FrameType | None) -> Any:
     return None
 
 
-# --- the process that listens ---------------------------------------------------------------------
-
-
 def listen(pid: int, notes: Notes, beats: int) -> None:
-    """Waits for beats until the end of the run; ends the process if it stops sending them."""
+    """Waits for the beats of a run, in a separate process; ends the run's process if they stop."""
     silent_s, before, before_s = 0.0, look_at(pid), time.monotonic()
     while silent_s < END_AFTER_S:
         ready, _, _ = select.select([beats], [], [], BEAT_S)
         signs = look_at(pid)
-        if signs is None or before is None or (ready and not os.read(beats, 4096)):
+        said = os.read(beats, 4096) if ready else BEAT
+        if signs is None or before is None or not said or END in said:
             return
         now_s = time.monotonic()
         waited_s = signs.waited_s - before.waited_s

@@ -21,25 +21,23 @@ from executor.headless.errors import HeadlessError
 from executor.headless.lines import mismatch_line
 from executor.headless.measured import Measured
 from executor.headless.recorded_segments import recorded_segments
-from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
 from executor.universes import BUILTIN_IDS, builtin_path
+from executor.universes.document import text_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
     from executor.headless.report import Report
-    from translator import Project, Settings
+    from translator import Project
 
 __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 
 TRAJECTORY_HZ: Final = 10.0
-VIEW_HZ: Final = 15.0
 _decode_frame: Final = msgspec.msgpack.Decoder(
     messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View | messages.RecordingPart
 ).decode
-FIGURES_EVERY_S: Final = 0.2
 LOOK_EVERY_S: Final = 1.0
 HANGS_AFTER_S: Final = 6.0
 """Seconds after the fault until a tick counts as hung; a tick that is only slow has returned by then."""
@@ -54,7 +52,6 @@ class HeadlessOptions:
     duration_s: float | None = None
     robot: str | None = None
     recording: Path | None = None
-    serve_viewer: bool = False
     profile: bool = False
     groot2: int = 0
 
@@ -109,9 +106,7 @@ async def _run(
                 introspection = msgspec.json.decode(await control.recv())["data"]
                 stream_url = f"{url}/stream?client={introspection['client_id']}"
                 async with connect(stream_url, additional_headers=headers, **more) as stream:
-                    runner = _Runner(control, stream, project.settings, say)
-                    if options.serve_viewer:
-                        await runner.serve_viewer()
+                    runner = _Runner(control, stream, project, say)
                     data = _run_data(project, app_zip, options)
                     return await runner.run(data, options, progress)
         finally:
@@ -125,25 +120,20 @@ class _Runner:
         self,
         control: ClientConnection,
         stream: ClientConnection,
-        settings: Settings,
+        project: Project,
         say: Callable[[str], None],
     ) -> None:
+        settings = project.settings
+        self._files = project.files
         self._control = control
         self._stream = stream
         self._say = say
-        self._name = settings.name
         self._measured = Measured(period_ms=1000.0 / settings.tick_hz)
-        self._viewer: RunViewer | None = None
-        self._looks: set[asyncio.Task[None]] = set()
+        self._started: set[str] = set()
         self._replies: dict[str, asyncio.Future[dict[str, Any]]] = {}
         self._changed = asyncio.Event()
         self._hangs_s: float | None = None
         """Since when no tick has been done."""
-
-    async def serve_viewer(self) -> None:
-        """Serves the page that shows the run."""
-        self._viewer = RunViewer(secrets.token_urlsafe(), self._look)
-        self._say(f"The viewer is at {await self._viewer.start()}")
 
     async def run(
         self, data: dict[str, Any], options: HeadlessOptions, progress: Callable[[Report], None]
@@ -161,12 +151,9 @@ class _Runner:
                 await self._follow(options.duration_s, progress)
             return self._measured.end(time.monotonic() - began_s)
         finally:
-            self._show_figures(is_over=True)
             # The readers run until both sockets are closed: unread frames would hide the end of the
             # connection.
             await asyncio.gather(self._stream.close(), self._control.close())
-            if self._viewer is not None:
-                await self._viewer.close()
             await asyncio.gather(*readers)
 
     def _forget_slow_loading(self) -> None:
@@ -175,7 +162,7 @@ class _Runner:
         errors[:] = [error for error in errors if error["kind"] != "timeout"]
 
     async def _follow(self, duration_s: float | None, progress: Callable[[Report], None]) -> None:
-        measured, told_s, shown_s = self._measured, 0.0, 0.0
+        measured, told_s = self._measured, 0.0
         while not measured.finished and (duration_s is None or measured.report.sim_time_s < duration_s):
             self._changed.clear()
             with contextlib.suppress(TimeoutError):
@@ -185,45 +172,6 @@ class _Runner:
             if time.monotonic() - told_s >= 1.0:
                 told_s = time.monotonic()
                 progress(measured.report)
-            if time.monotonic() - shown_s >= FIGURES_EVERY_S:
-                shown_s = time.monotonic()
-                self._show_figures(is_over=False)
-
-    def _show_figures(self, *, is_over: bool) -> None:
-        if self._viewer is None:
-            return
-        report = self._measured.report
-        figures = {
-            "Time": f"{report.sim_time_s:.1f} s",
-            "Ticks": str(report.ticks),
-            "Distance": f"{report.distance_m:.2f} m",
-            "Collisions": str(report.collisions),
-        } | ({} if report.min_range_m is None else {"Nearest": f"{report.min_range_m:.2f} m"})
-        status = "ERROR" if report.errors else self._measured.status
-        running = [] if is_over else self._measured.running_path
-        self._viewer.tell(
-            {
-                "project": self._name,
-                "status": status,
-                "is_over": is_over,
-                "figures": figures,
-                "running": running,
-            }
-        )
-
-    def _look(self, pose: messages.CameraPose | None) -> None:
-        """Starts or stops the stream of the view, without waiting for the answer."""
-        asked: dict[str, Any] = {"stream": "view"}
-        if pose is not None:
-            asked |= {"max_hz": VIEW_HZ, "camera_pose": msgspec.to_builtins(pose)}
-        command = "unsubscribe" if pose is None else "subscribe"
-        sending = asyncio.create_task(self._send_if_open(command, asked))
-        self._looks.add(sending)
-        sending.add_done_callback(self._looks.discard)
-
-    async def _send_if_open(self, command: str, data: dict[str, Any]) -> None:
-        with contextlib.suppress(ConnectionClosed):
-            await self._send("look", command, data)
 
     async def _send(self, request: str, command: str, data: dict[str, Any]) -> None:
         text = msgspec.json.encode({"id": request, "command": command, "data": data}).decode()
@@ -256,9 +204,14 @@ class _Runner:
         elif name == "log" and data["source"] == "action":
             is_about = data["level"] == "warning" and data["node_path"]
             self._say(f"{data['node_path']}: {data['text']}" if is_about else data["text"])
+        elif name == "log" and data["source"] == "launch":
+            is_placed = data["text"].startswith("launch/")
+            self._say(data["text"] if is_placed else f"[{data['launch_node']}] {data['text']}")
+        elif name == "launch_nodes":
+            self._say_started(data["nodes"])
         elif name == "topic_mismatch":
             if not data["resolved"]:
-                self._say(mismatch_line(data["topic"], data["message"], data["hint"]))
+                self._say(mismatch_line(data["topic"], data["message"], data["hint"], self._files))
         else:
             if name == "fault" and data["kind"] == "timeout":
                 self._hangs_s = time.monotonic()
@@ -266,14 +219,18 @@ class _Runner:
                 self._hangs_s = None
             self._measured.take_event(name, data, message["t"])
 
+    def _say_started(self, nodes: list[dict[str, Any]]) -> None:
+        """Names each launch node at its start."""
+        for node in nodes:
+            if node["state"] == "running" and node["id"] not in self._started:
+                self._started.add(node["id"])
+                self._say(f"{node['file']}:{node['line']}: the launch node {node['name']} is started")
+
     async def _read_stream(self) -> None:
         with contextlib.suppress(ConnectionClosed):
             async for data in self._stream:
                 if isinstance(data, bytes):
-                    frame = _decode_frame(data)
-                    self._measured.take_frame(frame)
-                    if self._viewer is not None and isinstance(frame, messages.View):
-                        self._viewer.show(frame.jpeg)
+                    self._measured.take_frame(_decode_frame(data))
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:
@@ -294,7 +251,7 @@ def _run_data(project: Project, app_zip: bytes, options: HeadlessOptions) -> dic
         own = builtin_path(name).read_bytes()  # so that the project's robots are found
     if own is not None:
         packed = _zip_base64(assets) if assets else ""
-        universe = {"document": own.decode(), "assets_zip_base64": packed, "file": path}
+        universe = {"document": text_of(own, path), "assets_zip_base64": packed, "file": path}
     return {
         "universe": {
             "universe": universe,

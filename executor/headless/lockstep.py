@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import sys
 import time
-import traceback
 from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -25,8 +24,8 @@ from executor.headless.profiling import RunProfile
 from executor.headless.report import NodeCount, Report, quantiles
 from executor.headless.stepper import PERIOD_STEPS, Stepper
 from executor.ros.environment import use_lockstep_environment
+from executor.supervision.descendants import RunChildren
 from executor.supervision.scratch import Scratch
-from tree_gardener.errors import describe
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,6 +41,7 @@ if TYPE_CHECKING:
     from translator import Project
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.hooks import ResultCount
+    from tree_gardener.runner import Runner
 
     Waiting = Callable[[], AbstractContextManager[object]]
     Progress = Callable[[float], None]
@@ -157,6 +157,7 @@ class LockstepRun:
 
     def set_up(self) -> None:
         """Makes the world and the application. Call `close` afterwards, also after an error."""
+        self._stack.append(RunChildren().end)
         recording = self._open_recording(self._project)
         self.world = self.make_world(self._write_assets())
         self._stack.append(self.world.close)
@@ -176,13 +177,15 @@ class LockstepRun:
             on_finish=self._on_finish,
             on_error=self._on_error,
             fault=self._note_fault,
+            halted=self._ros.application.commanded.stop,
         )
         began_s = time.perf_counter()
         ticks = self.ticks
         for number in range(ticks):
             self._advance(round(number / self._tick_hz / self.world.step_s))
-            if not self._call_back():
-                self.report.root_status = "FAILURE"
+            self._call_back(runner)
+            if runner.error is not None:
+                self._note_end(None, runner.status)
                 break
             if number % max(1, round(self._tick_hz * MISMATCHES_S)) == 1:
                 self._mismatches.look()
@@ -220,17 +223,16 @@ class LockstepRun:
         while self._stack:
             self._stack.pop()()
 
-    # --- setting up ---
-
     def make_world(self, assets: Path) -> BulletWorld:
         """Returns the world; `assets` is the folder with the project's robots and meshes."""
+        from executor.universes.document import text_of  # noqa: PLC0415 - as below
         from executor.world.simulation.launch import make_world  # noqa: PLC0415 - slow to load
 
         settings, options = self._project.settings, self._options
         universe = options.universe or settings.universe
         file = f"universes/{universe}.yaml"
         own = self._project.files.get(file)
-        text = own.decode("utf-8") if own is not None else universe
+        text = text_of(own, file) if own is not None else universe
         robot = options.robot or settings.robot
         return make_world(text, seed=options.seed, robot=robot, assets=assets, file=file)
 
@@ -251,7 +253,7 @@ class LockstepRun:
         self.make_stepper()
         if ros.navigation is not None:
             self._stepper.parts.append(ros.navigation)
-        self._mismatches = Mismatches(ros.application, self._say_mismatch)
+        self._mismatches = Mismatches(ros.application, self._say_mismatch, patience=1)
 
     def make_stepper(self) -> None:
         """Makes what steps the world, after its sensors and its node."""
@@ -275,7 +277,7 @@ class LockstepRun:
 
     def _say_mismatch(self, found: TopicMismatch) -> None:
         if not found.resolved:
-            self._say(mismatch_line(found.topic, found.message, found.hint))
+            self._say(mismatch_line(found.topic, found.message, found.hint, self._project.files))
 
     def _make_tree(self, project: Project) -> Tree:
         from executor.application.host import enter, prepare  # noqa: PLC0415 - after the environment
@@ -347,8 +349,6 @@ class LockstepRun:
         make = partial(RecordedOutput, send=print_, locator=self._locator, now_s=lambda: self.world.time_s)
         self._output = make("info", original=sys.stdout), make("error", original=sys.stderr)
 
-    # --- running ---
-
     def _advance(self, until_step: int) -> None:
         """Steps the world up to a step; its sensors measure at their rates meanwhile, as in real time."""
         if self._stepper.done == 0:
@@ -370,17 +370,15 @@ class LockstepRun:
         self._advance(self._stepper.done + PERIOD_STEPS)
         self.node.poll()
 
-    def _call_back(self) -> bool:
-        """Runs the callbacks of the actions; returns whether all succeeded."""
-        try:
-            with recorded(*self._output):
+    def _call_back(self, runner: Runner) -> None:
+        """Runs the callbacks of the actions; an exception of one may end the run."""
+        with recorded(*self._output):
+            try:
                 self._ros.executor.drain()
-        except (Exception, SystemExit) as error:
-            self._note_broken(error)
-            return False
-        return True
+            except (Exception, SystemExit) as error:
+                runner.fail(error)
 
-    def _tick(self, runner: Any) -> Status | None:
+    def _tick(self, runner: Runner) -> Status | None:
         began_s = time.perf_counter()
         with recorded(*self._output):
             status: Status | None = runner.tick_now()
@@ -388,21 +386,6 @@ class LockstepRun:
         if self._profile is not None:
             self._profile.look(self.world.time_s)
         return status
-
-    def _note_broken(self, error: BaseException) -> None:
-        """Stores the exception of a callback."""
-        place = self._locator.place_of_error(error)
-        self.report.errors.append(
-            {
-                "node_path": place.node_path,
-                "node_id": place.node_id,
-                "file": place.file,
-                "line": place.line,
-                "message": describe(error),
-                "traceback": "".join(traceback.format_exception(error)),
-                "t": self.world.time_s,
-            }
-        )
 
     def _note_fault(self, error: TickError) -> None:
         if self._recorder is not None:
@@ -456,7 +439,8 @@ class LockstepRun:
         report.random = self.world.has_drawn or not self._randomness.is_untouched
         if self.world.robots:
             robot = self.world.robots[0]
-            report.distance_m, report.collisions = round(robot.distance_m, 6), robot.collisions
+            report.distance_m = round(robot.distance_m, 6)
+            report.collisions, report.hits = robot.collisions, robot.hits
         return report
 
 

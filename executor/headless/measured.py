@@ -39,7 +39,8 @@ class Measured:
             case "tick":
                 self._take_tick(data, time_s)
             case "sim":
-                report.distance_m, report.collisions = data["distance_m"], data["collisions"]
+                report.distance_m = data["distance_m"]
+                report.collisions, report.hits = data["collisions"], data["hits"]
             case "profile":
                 report.profile = [
                     ProfileRow(self._paths[n["uid"]].path, n["calls"], n["total_ms"], n["self_ms"])
@@ -94,12 +95,6 @@ class Measured:
         if self.report.root_status not in {"", "IDLE"}:
             return self.report.root_status
         return "RUNNING" if min(self._paths, default=0) in self._running else "IDLE"
-
-    @property
-    def running_path(self) -> list[str]:
-        """Returns the names from the root to the deepest node that is RUNNING."""
-        paths = (self._paths[uid].path.split("/") for uid in self._running)
-        return max(paths, key=len, default=[])
 
     def end(self, wall_time_s: float) -> Report:
         """Returns the report of the whole run."""

@@ -60,7 +60,7 @@ class RunRecorder:
             self._keyframe_s = now_s + KEYFRAME_S
             self._tree.keyframe(round(now_s / self._world.step_s), self._world.dump())
         for robot, collision in self._world.take_collisions():
-            self._tree.says("warning", f"{robot} bumped into {collision.body}", source="world")
+            self._tree.says("warning", collision.told(robot), source="world")
         if now_s >= self._flush_s:
             self._flush_s = now_s + FLUSH_S
             self._guarded(self._writer.flush)
@@ -88,8 +88,6 @@ class RunRecorder:
     def finished(self, status: Status | None) -> None:
         """Writes the end of the tree."""
         self._tree.says("info", f"The tree ended with {status.name if status else 'FAILURE'}.")
-
-    # --- inside ---
 
     def _now_s(self) -> float:
         return self._world.time_s

@@ -48,6 +48,7 @@ class Report:
     real_time_factor: float = 0.0
     distance_m: float = 0.0
     collisions: int = 0
+    hits: int = 0
     min_range_m: float | None = None
     tick_ms: dict[str, float] = field(default_factory=dict)
     overruns: int = 0

@@ -8,9 +8,12 @@ that type appears, since it costs memory and time. If the application is in the 
 
 from __future__ import annotations
 
+import struct
+import time
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.serialization import deserialize_message
 
 from executor.ros.raw_take import ignore, take_with_info
 
@@ -28,10 +31,17 @@ TYPES: Final[dict[CommandType, tuple[type, ...]]] = {
     "both": (Twist, TwistStamped),
 }
 STAMPED: Final = "geometry_msgs/msg/TwistStamped"
-LOOK_EVERY: Final = 15
-"""Calls of `take` between two searches for a publisher of the second type; that is four searches a second."""
+LOOK_S: Final = 0.02
+"""Real seconds between two searches for a publisher of the second type, which waits for its subscription."""
+AWAIT_S: Final = 1.0
+"""The longest real time for which a world waits for a publisher that it has seen."""
+REPEAT_S: Final = 0.1
+"""So long after its discovery a publisher needs to send again what it had published before."""
 _DEPTH: Final = 10
 _NS: Final = 1e-9
+_LITTLE_ENDIAN: Final = b"\x00\x01\x00\x00"
+_TWIST: Final = struct.Struct("<6d")
+"""The body of a `Twist`. To read it costs a tenth of making the message, whose fields would be checked."""
 
 
 class Command(NamedTuple):
@@ -66,7 +76,8 @@ class Commands:
         self._timeout_s = timeout_s
         self._second = second
         self._subscriptions = {self.types[0]: self._subscribe(node, self.types[0])}
-        self._looks = 0
+        self._look_at_s = self._await_until_s = 0.0
+        self._is_found = True
         self._noted = False
 
     def take(self, now_s: float) -> tuple[Command | None, bool]:
@@ -77,6 +88,8 @@ class Commands:
         for subscription in self._subscriptions.values():
             while (taken := take_with_info(subscription)) is not None:
                 arrived.append((int(taken[1].get("received_timestamp", 0)), taken[0]))
+        if self.faults is not None or self.tap is not None:
+            arrived = [(at, _as_message(sent)) for at, sent in arrived]
         if self.faults is not None:
             arrived = self._faulty(arrived, self.faults, now_s)
         if not arrived:
@@ -85,9 +98,25 @@ class Commands:
         if self.tap is not None:
             for _, message in arrived:
                 self.tap(self.topic, message, now_s)
+        if isinstance(newest, bytes):
+            if newest[:4] == _LITTLE_ENDIAN:
+                linear, *_, angular = _TWIST.unpack_from(newest, len(_LITTLE_ENDIAN))
+                return Command(linear, angular, now_s), True
+            newest = _as_message(newest)
         if isinstance(newest, Twist):
             return Command(newest.linear.x, newest.angular.z, now_s), True
         return self._stamped(newest, now_s)
+
+    def awaits_publisher(self, now_s: float) -> bool:
+        """Returns whether a publisher of the second type is known, and its first messages may be under way.
+
+        Without a pause they would arrive at a later simulated time. `now_s` is a real time.
+        """
+        if now_s >= self._await_until_s:
+            return False
+        if not self._is_found and self._subscriptions[TwistStamped].get_publisher_count():
+            self._is_found, self._await_until_s = True, now_s + REPEAT_S
+        return True
 
     def make_way(self, message_type: type) -> None:
         """Changes the type of the subscription in this participant, for a node that uses that type."""
@@ -95,8 +124,6 @@ class Commands:
             for subscription in self._subscriptions.values():
                 self._node.destroy_subscription(subscription)
             self._subscriptions = {message_type: self._subscribe(self._node, message_type)}
-
-    # --- inside ---
 
     def _faulty(
         self, arrived: list[tuple[int, Any]], faults: TopicFaults, now_s: float
@@ -107,15 +134,17 @@ class Commands:
         return [*late, *passed]
 
     def _subscribe(self, node: Node, message_type: type) -> Any:
-        return node.create_subscription(message_type, self.topic, ignore, _DEPTH)
+        return node.create_subscription(message_type, self.topic, ignore, _DEPTH, raw=message_type is Twist)
 
     def _check_for_stamped(self) -> None:
-        self._looks += 1
-        if self._looks % LOOK_EVERY or Twist not in self._subscriptions:
+        now_s = time.monotonic()
+        if now_s < self._look_at_s or Twist not in self._subscriptions:
             return
+        self._look_at_s = now_s + LOOK_S
         published = {end.topic_type for end in self._node.get_publishers_info_by_topic(self.topic)}
         if STAMPED in published:
             self._subscriptions[TwistStamped] = self._subscribe(self._second(), TwistStamped)
+            self._is_found, self._await_until_s = False, time.monotonic() + AWAIT_S
 
     def _stamped(self, message: Any, now_s: float) -> tuple[Command | None, bool]:
         stamp, twist = message.header.stamp, message.twist
@@ -131,3 +160,7 @@ class Commands:
                 )
             return None, False
         return Command(twist.linear.x, twist.angular.z, at_s), True
+
+
+def _as_message(sent: Any) -> Any:
+    return deserialize_message(sent, Twist) if isinstance(sent, bytes) else sent

@@ -125,6 +125,10 @@ class WorldNode:
         """Reads the commands that arrived, and applies the last one of each robot."""
         self.refused_commands += sum(not robot.poll(self._world.time_s) for robot in self._robots)
 
+    def awaits_publisher(self, now_s: float) -> bool:
+        """Returns whether the world waits for the first command of a robot, at a real time."""
+        return any(robot.commands.awaits_publisher(now_s) for robot in self._robots)
+
     def publish(self, sensors: Sensors) -> None:
         """Publishes the messages that are due. Topics without subscribers are neither measured nor drawn."""
         now_s = self._world.time_s

@@ -15,7 +15,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.serialization import serialize_message
+
+from executor.recorder.cdr import encode_object
+from executor.ros.tap import kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,8 +77,12 @@ class Outlet:
         self._thread.start()
 
     def publish(self, publisher: Any, message: Any) -> None:
-        """Serializes and queues a message; the caller may change the message afterwards."""
-        self.put(publisher, serialize_message(message))
+        """Encodes and queues a message; the caller may change the message afterwards.
+
+        ROS's own serializer leaves bytes behind the values of some types, of joint states for one, and other
+        readers of a recording refuse those.
+        """
+        self.put(publisher, encode_object(kind_of(message), message))
 
     def put(self, publisher: Any, data: bytes) -> None:
         """Queues a serialized message."""

@@ -135,8 +135,6 @@ class RobotTopics:
             for camera in self._config.cameras
         ]
 
-    # --- inside ---
-
     def _publisher(self, kind: Any, topic: str, qos: Any = SENSOR_QOS) -> Any:
         publisher = self._node.create_publisher(kind, self._prefix + topic, qos)
         return publisher if self._outlet is None else Piped(publisher, self._outlet)

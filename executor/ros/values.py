@@ -47,9 +47,6 @@ def type_name(kind: type) -> str:
     return f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
 
 
-# --- out ------------------------------------------------------------------------------------------
-
-
 @dataclass
 class Flattened:
     """A message as dicts, lists and numbers.
@@ -107,9 +104,6 @@ def describe(name: str) -> dict[str, Any]:
 def _fields(message: Any) -> dict[str, str]:
     fields: dict[str, str] = message.get_fields_and_field_types()
     return fields
-
-
-# --- in -------------------------------------------------------------------------------------------
 
 
 def fill(message: Any, values: Any, path: str = "") -> None:

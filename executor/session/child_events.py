@@ -28,6 +28,7 @@ _SAME: dict[type[Struct], type[Struct]] = {
     child_messages.Finished: messages.Finished,
     child_messages.TopicMismatch: messages.TopicMismatch,
     child_messages.Forced: messages.Forced,
+    child_messages.HeldInPython: messages.HeldInPython,
     child_messages.Attached: messages.Attached,
     child_messages.AttachedTree: messages.AttachedTree,
     child_messages.Profile: messages.Profile,
@@ -55,10 +56,8 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
             _answer(stage, child, message)
         case Failed() if stage.state.reaches(State.UNIVERSE_READY):
             stage.output.emit(messages.Log("world", "error", f"{message.message} {message.hint}".strip()))
-        case child_messages.Held():
-            holding.held(stage, child, message)
-        case child_messages.Released():
-            holding.released(stage, child, message)
+        case child_messages.Held() | child_messages.Released() | child_messages.PythonLineWrong():
+            _forward_debugger(stage, child, message)
         case WorldReady():
             stage.know_world(message.renderer, has_tf=message.tf)
         case child_messages.Topics() | child_messages.TopicMessage() | child_messages.TypeDescription():
@@ -79,6 +78,19 @@ def log(stage: Stage, event: ChildSaid) -> None:
     stage.output.emit(
         messages.Log(source, message.level, message.text, message.node_id, message.node_path, time_s)
     )
+
+
+def _forward_debugger(
+    stage: Stage,
+    child: Child,
+    message: child_messages.Held | child_messages.Released | child_messages.PythonLineWrong,
+) -> None:
+    if isinstance(message, child_messages.Held):
+        holding.held(stage, child, message)
+    elif isinstance(message, child_messages.Released):
+        holding.released(stage, child, message)
+    else:
+        stage.python.cannot_stop(message)
 
 
 def _answer(stage: Stage, child: Child, message: Answer) -> None:

@@ -123,8 +123,6 @@ class Clients:
         """Returns whether no client was connected during the grace period; a grace period of 0 never ends."""
         return bool(grace_s) and self._empty_since_s is not None and now_s >= self._empty_since_s + grace_s
 
-    # --- streams and topics -----------------------------------------------------------------------
-
     def set_stream(self, client: str, *, is_open: bool) -> None:
         """Stores whether the client's stream socket is open."""
         if client in self._clients:

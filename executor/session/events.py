@@ -68,9 +68,6 @@ processes beside the ladder.
 """
 
 
-# --- events ---------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class ClientJoined:
     """A control socket was opened; `client` comes from `Session.client_id`.
@@ -240,9 +237,6 @@ Event = (
     | AttachWanted
     | TimePassed
 )
-
-
-# --- effects --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

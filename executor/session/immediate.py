@@ -227,7 +227,7 @@ def _does_time_pass(stage: Stage) -> bool:
 
 def _subscribe(stage: Stage, event: CommandCame, data: messages.Subscribe) -> None:
     if stage.clients.subscribes_to_too_many(event.client, data):
-        text = f"A client may subscribe to {MOST_STREAMS} streams at once."
+        text = f"A page may watch {MOST_STREAMS} streams at once."
         stage.output.refuse(event, "too_many", text, "Close the view of another camera first.")
         return
     stage.clients.subscribe(event.client, data)
@@ -237,7 +237,7 @@ def _subscribe(stage: Stage, event: CommandCame, data: messages.Subscribe) -> No
 
 def _unsubscribe(stage: Stage, event: CommandCame, data: messages.Unsubscribe) -> None:
     stage.clients.unsubscribe(event.client, data.stream, data.sensor)
-    stage.children.tell_world(child_messages.Unsubscribe(event.client, data.stream, data.sensor))
+    streaming.unsubscribe(stage, event.client, data.stream, data.sensor)
 
 
 def _teleop(stage: Stage, _: CommandCame, data: messages.Teleop) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from executor import messages
 from executor.child_messages import ExpectNavigators, Log
@@ -17,6 +18,14 @@ if TYPE_CHECKING:
 __all__ = ["LaunchNodes"]
 
 GRACE_S: Final = 1.0
+_PLACED: Final = re.compile(r"(?P<file>[^/\s:][^\s:]*\.py):(?P<line>\d+): (?P<text>.+)")
+"""The last line of a Python program of the project that an exception ended (`tree_gardener.ros_script`)."""
+
+
+class _Place(NamedTuple):
+    file: str
+    line: int
+    text: str = ""
 
 
 @dataclass
@@ -115,14 +124,14 @@ class LaunchNodes:
         is_well = event.reason.endswith("exit code 0")
         node.state = "ended" if is_well else "failed"
         if not is_well:
-            message = f"The node {node.spec.name} {event.reason}."
+            place = _placed(event.last_lines, node.spec)
             stage.output.emit(
                 messages.Fault(
                     "process",
-                    message,
+                    f"The node {node.spec.name} {event.reason}{place.text}.",
                     hint="The run continues without it; restart it from the list of nodes.",
-                    file=node.spec.file,
-                    line=node.spec.line,
+                    file=place.file,
+                    line=place.line,
                     traceback="\n".join(event.last_lines),
                 )
             )
@@ -158,3 +167,11 @@ class LaunchNodes:
 
     def _tell(self, stage: Stage) -> None:
         stage.output.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))
+
+
+def _placed(last_lines: tuple[str, ...], spec: NodeSpec) -> _Place:
+    """Returns where the fault of a node is, and what it is; its line in the launch file if it is not said."""
+    found = _PLACED.fullmatch(last_lines[-1]) if last_lines else None
+    if found is None:
+        return _Place(spec.file, spec.line)
+    return _Place(found["file"], int(found["line"]), f": {found['text'].removesuffix('.')}")

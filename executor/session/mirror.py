@@ -23,6 +23,7 @@ from executor.messages import (
     Forced,
     Groot2,
     Held,
+    HeldInPython,
     LaunchNode,
     LaunchNodes,
     Log,
@@ -65,6 +66,7 @@ class Mirror:
         self.tree: Tree | None = None
         self.statuses: dict[int, NodeStatus] = {}
         self.held: Held | None = None
+        self.held_in_python: HeldInPython | None = None
         self.forced: Forced | None = None
         self.attached: Attached | None = None
         self.attached_tree: AttachedTree | None = None
@@ -100,7 +102,7 @@ class Mirror:
         self.statuses.clear()
         self.past = []
         self.finished = None
-        self.held = self.forced = self.profile = None
+        self.held = self.held_in_python = self.forced = self.profile = None
         self.ports.clear()
         self.blackboard.clear()
         self.faults.clear()
@@ -146,7 +148,9 @@ class Mirror:
             case RepeatableRuns():
                 self.repeatable = event
             case Held():
-                self.held = event
+                self.held, self.held_in_python = event, None
+            case HeldInPython():
+                self.held_in_python = event
             case Released():
                 self.held = None
             case Forced():
@@ -201,6 +205,7 @@ class Mirror:
             live_runs=self.repeatable.live,
             runs_by_hand=self.repeatable.by_hand,
             held=self.held,
+            held_in_python=self.held_in_python,
             forced=self.forced,
             attached=self.attached,
             attached_tree=self.attached_tree,
@@ -217,6 +222,8 @@ class Mirror:
     def _enter(self, state: State) -> None:
         self.state = state
         self.waiting = Waiting()  # it is of one tick, which has ended or is held
+        if state is not State.HELD:
+            self.held_in_python = None
         if state is not State.HELD and not state.reaches(State.APPLICATION_RUNNING):
             self.held = self.forced = None
             if self.profile is not None:
@@ -229,6 +236,7 @@ class Mirror:
         self.statuses = {node.uid: "IDLE" for node in event.nodes}
 
     def _apply_tick(self, event: Tick) -> None:
+        self.held_in_python = None
         self.tick = event.n
         self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
         self.statuses.update(event.changed)

@@ -133,8 +133,6 @@ class Session:
         self.renderer = ""
         self.has_tf = False
 
-    # --- what the adapter calls -------------------------------------------------------------------
-
     @property
     def state(self) -> State:
         """The state of the ladder."""
@@ -172,8 +170,6 @@ class Session:
             self.nodes.stop(self)
         return self.output.take()
 
-    # --- what the steps use -----------------------------------------------------------------------
-
     def enter(self, state: State, reason: str = "") -> None:
         """Changes the state of the ladder; no other function does."""
         _log.info("%s -> %s %s", self.state, state, reason)
@@ -202,8 +198,6 @@ class Session:
             self._unpacked if self._unpacked is not None and self._unpacked.token == token else None
         )
 
-    # --- events -----------------------------------------------------------------------------------
-
     def _dispatch(self, event: Event) -> None:
         match event:
             case ClientJoined():
@@ -212,8 +206,7 @@ class Session:
                 self.output.send(event.client, self.snapshot())
                 streaming.resume_echoes(self)
             case ClientLeft():
-                for topic in self.clients.leave(event.client, self.now_s):
-                    self.children.tell_world(child_messages.EchoTopic(topic, 0.0))
+                streaming.leave(self, event.client)
             case StreamOpened() | StreamClosed() | StreamPaced():
                 streaming.take(self, event)
             case CommandCame():
@@ -319,13 +312,11 @@ class Session:
         if self.attaching is not None and self.state is State.VISUALIZATION_READY:
             self.begin_own("restart_application", steps.restart_application(self, messages.Empty()))
 
-    # --- commands ---------------------------------------------------------------------------------
-
     def _on_command(self, event: CommandCame) -> None:
         row = TABLE[event.command]
         if not row.for_viewers and self.clients.role(event.client) != "driver":
             self.output.refuse(
-                event, "not_driver", "Another client drives this session.", "Take over to drive it."
+                event, "not_driver", "Another window controls this session.", "Take over to control it."
             )
         elif (refused := attaching.refusal(self, event.command)) is not None:
             self.output.refuse(event, *refused)

@@ -113,8 +113,6 @@ class Recording:
         known = {flag.id: flag for flag in stage.mirror.flags.values() if flag.run == self.run}
         stage.output.emit(flag_of(wanted, known, self.run, stage.sim_time_s, user))
 
-    # --- the recorder -----------------------------------------------------------------------------
-
     def said(self, event: ChildSaid) -> None:
         """Handles a message of the recorder."""
         stage = self._stage

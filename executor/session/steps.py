@@ -61,14 +61,8 @@ EXIT_TIMEOUT_S: Final = 10.0
 RESET_TIMEOUT_S: Final = 60.0
 
 
-# --- helpers --------------------------------------------------------------------------------------
-
-
 def _progress(stage: Stage, rung: messages.Rung, fraction: float, message: str) -> None:
     stage.output.emit(messages.Progress(rung, fraction, message))
-
-
-# --- rungs ----------------------------------------------------------------------------------------
 
 
 def _connect(stage: Stage, _: Struct) -> Step:
@@ -382,9 +376,6 @@ def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniv
         return launch.universe, launch.robot, launch.seed, launch.domain_id
 
     return old is not None and key(old) == key(new)
-
-
-# --- down the ladder ------------------------------------------------------------------------------
 
 
 def _terminate_visualization(stage: Stage, _: Struct) -> Step:

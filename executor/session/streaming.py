@@ -33,6 +33,19 @@ def subscribe(stage: Stage, client: str, data: messages.Subscribe) -> None:
     )
 
 
+def unsubscribe(stage: Stage, client: str, stream: messages.StreamName, sensor: str) -> None:
+    """Asks the world to end one stream; a spare one that waits sends none, and would answer with an error."""
+    if stage.state.reaches(State.UNIVERSE_READY):
+        stage.children.tell_world(child_messages.Unsubscribe(client, stream, sensor))
+
+
+def leave(stage: Stage, client: str) -> None:
+    """Ends the echoes of topics that only this client had."""
+    for topic in stage.clients.leave(client, stage.now_s):
+        if stage.state.reaches(State.UNIVERSE_READY):
+            stage.children.tell_world(child_messages.EchoTopic(topic, 0.0))
+
+
 def open_all(stage: Stage) -> None:
     """Asks the world for all streams to which clients are subscribed."""
     for client, data in stage.clients.wanted_streams():
@@ -60,5 +73,5 @@ def _open(stage: Stage, client: str) -> None:
 
 def _close(stage: Stage, client: str) -> None:
     for data in stage.clients.streams_of(client):
-        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream, data.sensor))
+        unsubscribe(stage, client, data.stream, data.sensor)
     stage.clients.set_stream(client, is_open=False)

@@ -55,9 +55,14 @@ def said_of(empty: Sequence[str]) -> str:
 def _write(tree: Tree, scope: str, key: str, kind: str, value: Any) -> bool:
     """Writes an entry; returns whether that is possible."""
     from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
+    from tree_gardener.py_trees_board import PREFIX, STATUS, write  # noqa: PLC0415 - as above
 
     if isinstance(value, dict) and isinstance(value.get(_PREVIEW), str):
         return False
+    if kind in ("double", "float") and type(value) is int:
+        value = float(value)
+    if scope.startswith(PREFIX):
+        return kind == STATUS or (kind in _PLAIN and write(scope, key, value))
     try:
         board = tree.blackboard.scope(scope)
     except KeyError:
@@ -66,8 +71,6 @@ def _write(tree: Tree, scope: str, key: str, kind: str, value: Any) -> bool:
     is_strong = entry is not None and entry.is_strong
     if not is_strong and kind not in _PLAIN:
         return False  # an object of a class has another form than its JSON
-    if kind in ("double", "float") and type(value) is int:
-        value = float(value)
     try:
         board[key] = value
     except (PortError, TypeError, ValueError):

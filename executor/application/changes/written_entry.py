@@ -20,7 +20,10 @@ def write(tree: Tree, scope: str, key: str, value: Any) -> str:
         value: its new value, from JSON.
     """
     from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
+    from tree_gardener.py_trees_board import PREFIX  # noqa: PLC0415 - as above
 
+    if scope.startswith(PREFIX):
+        return f"The entry '{key}' is one of py_trees: only its clients can write it."
     try:
         board = tree.blackboard.scope(scope) if scope else tree.blackboard
         # JSON has only one kind of number: writing 1 over 0.5 must keep a double.

@@ -24,6 +24,8 @@ ENDINGS: Final = (".json", ".xml", ".btproj")
 _TOKEN: Final = re.compile(r'"(?:[^"\\]|\\.)*"|[{}\[\]\n]')
 _START: Final = re.compile(rb"""<(?:[^<>"']|"[^"]*"|'[^']*')*>""")
 _OTHER: Final = "its blocks are not those of the tree that runs"
+_NO_TREE: Final = "the file is no tree of this project"
+_PYTHON: Final = "; breakpoints in Python are set in the page: open the file there, and press beside a line"
 _BELOW: Final = "there is no block in this line or below it"
 
 
@@ -70,7 +72,8 @@ class Lines:
         """
         blocks = self._blocks.get(path, ())
         if path in self._why or path not in self._blocks:
-            raise NoBlockError(self._why.get(path, "the file is no tree of this project"))
+            is_python = PurePosixPath(path).suffix.lower() == ".py"
+            raise NoBlockError(self._why.get(path, f"{_NO_TREE}{_PYTHON if is_python else ''}"))
         around = [each for each in blocks if each.first <= line <= each.last]
         if around:
             return max(around, key=lambda each: each.first)

@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from executor.headless.dap.lines import ENDINGS, Lines
+from executor.headless.dap.paths import Folder, local_root
 from executor.headless.dap.server import CAPABILITIES, Server
 from executor.headless.dap.wire import GONE
 from executor.headless.lockstep import LockstepOptions, LockstepRun
 from tree_gardener.debugging import Debugger, DebuggingEnded
 
 if TYPE_CHECKING:
+    from pathlib import PurePath
+
     from executor.headless.dap.wire import Request, Wire
     from executor.headless.guard import Guard
     from executor.headless.report import Report
@@ -40,6 +43,7 @@ class Launch:
         project: the folder or file of the project.
         options: options of the run.
         stops: whether the tree is held before its first tick.
+        local_root: the project's folder on the client's machine; None if the client runs on this one.
         is_answered: whether the client knows that the tree is loaded.
     """
 
@@ -48,6 +52,7 @@ class Launch:
     project: Path
     options: LockstepOptions
     stops: bool
+    local_root: PurePath | None = None
     is_answered: bool = False
 
 
@@ -75,7 +80,7 @@ def _launch(request: Request, first_line: int) -> Launch:
     name = request.text("project")
     if not name:
         raise LaunchError('launch needs "project", the folder or file of a project')
-    project = Path(name).expanduser()
+    project = Path(name).expanduser().absolute()  # the run goes to the folder of the actions
     if not project.exists():
         raise LaunchError(f"{name}: there is no such file or folder")
     duration = request.arguments.get("duration", 3600.0)
@@ -88,7 +93,11 @@ def _launch(request: Request, first_line: int) -> Launch:
         universe, request.text("robot") or None, request.number("seed"), float(duration)
     )
     stops = request.arguments.get("stopOnEntry") is True
-    return Launch(request, first_line, project, options, stops)
+    root = request.arguments.get("localRoot")
+    local = None if root is None else local_root(str(root))
+    if root is not None and local is None:
+        raise LaunchError('"localRoot" is the absolute path of the folder on the machine of the editor')
+    return Launch(request, first_line, project, options, stops, local)
 
 
 class DapRun:
@@ -121,7 +130,8 @@ class DapRun:
             run.tree.debug(debugger)
             folder = (launch.project if launch.project.is_dir() else launch.project.parent).resolve()
             lines = Lines(_files(folder), run.tree.nodes)
-            self._server = Server(self._wire, run.tree, debugger, lines, folder, lambda: run.world.time_s)
+            files = Folder(folder, launch.local_root)
+            self._server = Server(self._wire, run.tree, debugger, lines, files, lambda: run.world.time_s)
             self._server.first_line = launch.first_line
             launch.is_answered = True
             self._wire.respond(launch.request)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import io
-import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.headless.dap.console import Console
 from executor.headless.dap.lines import NoBlockError
 from executor.headless.dap.values import Values, ValuesError, evaluated
-from executor.headless.debug.prompt import Prompt
 from tree_gardener.debugging import Breakpoint, BreakpointError, DebuggingEnded, Step
 from tree_gardener.debugging.breakpoints import check
 
@@ -18,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.headless.dap.lines import Lines
+    from executor.headless.dap.paths import Folder
     from executor.headless.dap.wire import Request, Wire
     from tree_gardener import Tree
     from tree_gardener.debugging import Debugger, Stop
@@ -36,10 +34,6 @@ CAPABILITIES: Final = {
 }
 THREAD: Final = 1
 STEPS: Final = {"continue": Step.CONTINUE, "next": Step.OVER, "stepIn": Step.INTO, "stepOut": Step.OUT}
-PROMPT_WORDS: Final = frozenset(
-    {"ahead", "alone", "force", "forces", "freeze", "help", "release", "skip", "tree", "where"}
-)
-"""The commands of `bt-studio debug` that the console takes, too."""
 _HITS: Final = re.compile(r"\s*(?:>=)?\s*([0-9]{1,9})\s*")
 MOST_BREAKPOINTS: Final = 1000
 
@@ -66,20 +60,19 @@ class Server:
         tree: Tree,
         debugger: Debugger,
         lines: Lines,
-        folder: Path,
+        folder: Folder,
         now_s: Callable[[], float],
     ) -> None:
         self._wire, self._tree, self._debugger, self._lines = wire, tree, debugger, lines
         self._folder = folder
         self._now_s = now_s
         self._values = Values()
+        self._console = Console(tree, debugger)
         self._set: dict[str, list[Breakpoint]] = {}
         self._is_configured = False
         self._goes_on = False
         self._pauses = False
         self.first_line = 1
-
-    # --- when requests are answered -----------------------------------------------------------------
 
     def configure(self) -> None:
         """Answers until the client has set its breakpoints.
@@ -122,8 +115,6 @@ class Server:
             "threadId": THREAD,
             "allThreadsStopped": True,
         }
-
-    # --- requests -----------------------------------------------------------------------------------
 
     def obey(self, request: Request) -> None:
         """Answers one request.
@@ -176,8 +167,6 @@ class Server:
         self._goes_on = True
         return {"allThreadsContinued": True} if request.command == "continue" else {}
 
-    # --- breakpoints --------------------------------------------------------------------------------
-
     def _set_breakpoints(self, request: Request) -> dict[str, Any]:
         source = request.arguments.get("source")
         path = source.get("path") if isinstance(source, dict) else None
@@ -185,13 +174,14 @@ class Server:
         rows = [each for each in wanted if isinstance(each, dict)] if isinstance(wanted, list) else []
         if not isinstance(path, str) or len(rows) > MOST_BREAKPOINTS:
             raise _NotNowError(f"breakpoints need the path of a file, and are {MOST_BREAKPOINTS} at most")
-        name = os.path.relpath(Path(path).resolve(), self._folder)
+        name = self._folder.below(path)
         answers, found = [], []
         for row in rows:
             try:
                 each, line = self._breakpoint(name, row)
             except (NoBlockError, BreakpointError) as error:
-                answers.append({"verified": False, "message": str(error), "line": row.get("line")})
+                why = f"{error}{self._folder.hint(path)}"
+                answers.append({"verified": False, "message": why, "line": row.get("line")})
             else:
                 found.append(each)
                 answers.append({"verified": True, "line": line - 1 + self.first_line})
@@ -212,8 +202,6 @@ class Server:
         check(made)
         return made, block.first
 
-    # --- a held tree --------------------------------------------------------------------------------
-
     def _stack(self, request: Request) -> dict[str, Any]:
         lead = self._held().lead[::-1]
         begin, count = max(0, request.number("startFrame")), request.number("levels") or len(lead)
@@ -227,24 +215,18 @@ class Server:
         frame: dict[str, Any] = {"id": node.uid, "name": f"{node.name}{kind} {node.status.name}{what}"}
         if (found := self._lines.line(node)) is None:
             return frame | {"line": 0, "column": 0, "presentationHint": "subtle"}
-        file = self._folder / found[0]
-        source = {"name": file.name, "path": str(file)}
+        name, path = self._folder.named(found[0])
+        source = {"name": name, "path": path}
         return frame | {"line": found[1] - 1 + self.first_line, "column": self.first_line, "source": source}
 
     def _evaluate(self, request: Request) -> dict[str, Any]:
         text, stop = request.text("expression"), self._held()
         node = self._node(request.number("frameId", stop.uid))
         is_console = request.text("context", "repl") == "repl"
-        if is_console and text.split(maxsplit=1)[:1] and text.split(maxsplit=1)[0] in PROMPT_WORDS:
-            return {"result": self._prompted(text), "variablesReference": 0}
+        if is_console and self._console.takes(text):
+            return {"result": self._console.answer(text), "variablesReference": 0}
         found = self._values.described(evaluated(text, node, may_write=is_console), node)
         return {"result": found["value"]} | found
-
-    def _prompted(self, text: str) -> str:
-        """Carries out a command of `bt-studio debug`; returns what it prints."""
-        printed = io.StringIO()
-        Prompt(self._tree, self._debugger, self._now_s, io.StringIO(), printed).onecmd(text)
-        return printed.getvalue().rstrip("\n")
 
     def _held(self) -> Stop:
         if (stop := self._debugger.held) is None:

@@ -7,9 +7,9 @@ from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.headless.debug.prompt import shown_value
 from tree_gardener import PortError, ScriptError
 from tree_gardener.blackboard import EMPTY
+from tree_gardener.descriptions import text_of
 from tree_gardener.ports import NO_DEFAULT
 from tree_gardener.script import Environment, compile_script, names_written, parse
 
@@ -151,8 +151,8 @@ def entries(board: Blackboard) -> Iterable[tuple[str, Any]]:
 
 
 def shown(value: Any) -> str:
-    """Returns a value as text."""
-    return shown_value(value, LONGEST)
+    """Returns a value as text of limited length; a class of the user may fail at it."""
+    return "(empty)" if value is EMPTY else text_of(value, LONGEST)
 
 
 def _boards(node: Node) -> Iterable[Blackboard]:
@@ -163,8 +163,9 @@ def _boards(node: Node) -> Iterable[Blackboard]:
 
 
 def _parts(value: Any) -> Callable[[], Iterable[tuple[str, Any]]] | None:
-    if isinstance(value, dict) and value:
-        return lambda: ((shown(key), each) for key, each in list(value.items()))
-    if isinstance(value, list | tuple) and value:
-        return lambda: ((f"[{index}]", each) for index, each in enumerate(value))
+    for base in (dict, list, tuple):  # not `isinstance`, nor methods of a derived class of the user
+        if issubclass(type(value), base) and base.__len__(value):
+            if base is dict:
+                return lambda: ((shown(key), each) for key, each in list(dict.items(value)))
+            return lambda: ((f"[{index}]", each) for index, each in enumerate(base.__iter__(value)))
     return None

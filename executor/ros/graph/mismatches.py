@@ -9,6 +9,7 @@ from rclpy.qos import DurabilityPolicy, QoSCompatibility, ReliabilityPolicy, qos
 
 from executor.child_messages import TopicMismatch
 from executor.ros.graph.ends import shown_ends
+from executor.ros.graph.nobody import topics_of_nobody, unserved
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Mismatches"]
 
 LOOK_S: Final = 1.0
+PATIENCE: Final = 5
 OURS: Final = "world"
 """Prefix of the names of the world's own nodes, which may subscribe to a topic with more than one type."""
 _IGNORED: Final = ("/rosout", "/parameter_events")
@@ -34,13 +36,17 @@ class Mismatches:
     Args:
         node: the node that queries the ROS graph.
         report: is called with each mismatch.
+        patience: the number of checks that must find that an end is missing; it may come later.
     """
 
-    def __init__(self, node: Node, report: Callable[[TopicMismatch], None]) -> None:
+    def __init__(
+        self, node: Node, report: Callable[[TopicMismatch], None], *, patience: int = PATIENCE
+    ) -> None:
         self._node = node
         self._report = report
+        self._patience = patience
         self._told: dict[_Key, TopicMismatch] = {}
-        self._seen: set[_Key] = set()
+        self._seen: dict[_Key, int] = {}
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
@@ -51,7 +57,9 @@ class Mismatches:
 
     def look(self) -> None:
         """Checks the graph now."""
-        present: set[_Key] = set()
+        present: dict[_Key, int] = {}
+        for found in (*topics_of_nobody(self._node, OURS), *unserved(self._node, OURS)):
+            self._take(found, present, self._patience)
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
                 continue
@@ -61,14 +69,18 @@ class Mismatches:
                 *_types_differ(topic, publishers, subscribers),
                 *_qos_differs(topic, publishers, subscribers),
             ):
-                key = (found.topic, found.publisher, found.subscriber, found.message)
-                present.add(key)
-                if key not in self._told and (key in self._seen or not _may_pass(found)):
-                    self._told[key] = found
-                    self._report(found)
+                self._take(found, present, 2 if _may_pass(found) else 1)
         self._seen = present
-        for key in self._told.keys() - present:
+        for key in self._told.keys() - present.keys():
             self._report(replace(self._told.pop(key), resolved=True))
+
+    def _take(self, found: TopicMismatch, present: dict[_Key, int], patience: int) -> None:
+        """Reports a mismatch that so many checks in a row have found."""
+        key = (found.topic, found.publisher, found.subscriber, found.message)
+        present[key] = self._seen.get(key, 0) + 1
+        if key not in self._told and present[key] >= patience:
+            self._told[key] = found
+            self._report(found)
 
 
 def _may_pass(found: TopicMismatch) -> bool:

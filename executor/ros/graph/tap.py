@@ -89,8 +89,6 @@ class GraphTap:
         """Ends all subscriptions."""
         self._node.destroy_node()
 
-    # --- inside ---
-
     def _take(self, topic: str, subscribed: tuple[str, Any], before_ns: int) -> int:
         """Takes the messages of a topic; returns how many there were."""
         kind, subscription = subscribed

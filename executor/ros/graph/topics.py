@@ -153,8 +153,6 @@ class Topics:
         for reader in self._readers.values():
             reader.echo_hz = 0.0
 
-    # --- list -------------------------------------------------------------------------------------
-
     def _list(self, now_s: float) -> None:
         rows = []
         for name, there in sorted(self._node.get_topic_names_and_types()):
@@ -186,8 +184,6 @@ class Topics:
         if own and (ours := self._node.get_fully_qualified_name()) in names:
             names.remove(ours)
         return sorted(set(names))[:MOST_NODES]
-
-    # --- echo -------------------------------------------------------------------------------------
 
     def _echo(self, name: str, max_hz: float) -> None:
         if max_hz <= 0:
@@ -229,8 +225,6 @@ class Topics:
                 topic=name, message_type=reader.type_name, message=flat.value, bytes=len(raw), cut=flat.cut
             )
         )
-
-    # --- publish ----------------------------------------------------------------------------------
 
     def _describe(self, type_name: str) -> None:
         try:

@@ -49,8 +49,6 @@ class BufferCore:
         self._frames: dict[str, History] = {}
         self._lock = threading.RLock()
 
-    # --- storing ---
-
     def set_transform(self, transform: Any, authority: str = "default_authority") -> None:
         """Stores the transform of a frame at the time of its stamp; ignores an invalid one with a warning."""
         self._set(transform, authority, is_static=False)
@@ -88,8 +86,6 @@ class BufferCore:
         with self._lock:
             self._check("get_latest_common_time", target_frame, source_frame)
             return Time(nanoseconds=self._latest_common(target_frame, source_frame))
-
-    # --- look-ups ---
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> Any:
         """Returns the transform of data from `source_frame` into `target_frame`.
@@ -140,15 +136,11 @@ class BufferCore:
             return False, str(error)
         return True, ""
 
-    # --- names that debugging programs use ---
-
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802 - its name in tf2
         return frame_id in self._known()
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802 - its name in tf2
         return sorted(self._known())
-
-    # --- inside ---
 
     def _set(self, transform: Any, authority: str, *, is_static: bool) -> None:
         child = transform.child_frame_id.lstrip("/")

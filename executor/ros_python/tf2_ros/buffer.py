@@ -57,8 +57,6 @@ class Buffer(BufferCore, BufferInterface):
         super().set_transform_static(transform, authority)
         self._tell_waiting()
 
-    # --- look-ups ---
-
     def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
         """Returns the transform from `source_frame` into `target_frame`; waits for it up to `timeout`.
 
@@ -117,8 +115,6 @@ class Buffer(BufferCore, BufferInterface):
         result = self.can_transform_full_core(*ways)
         return result if return_debug_tuple else result[0]
 
-    # --- futures ---
-
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Any) -> Any:
         """Waits until a transform is known, and returns it."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
@@ -147,8 +143,6 @@ class Buffer(BufferCore, BufferInterface):
         return self._future(
             lambda: self.can_transform_full_core(*ways)[0], lambda: self.lookup_transform_full_core(*ways)
         )
-
-    # --- inside ---
 
     def _wait(self, is_there: Callable[[], bool], timeout: Any) -> None:
         end_s = wall.monotonic() + (0.0 if timeout is None else timeout.nanoseconds * 1e-9)

@@ -62,8 +62,6 @@ class TransformListener:
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
 
-    # --- for a buffer that waits ---
-
     @property
     def _time_passes(self) -> bool:
         """Whether messages can arrive during a wait. It is False in lock-step, where the world waits too."""

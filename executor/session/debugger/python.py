@@ -17,6 +17,7 @@ import msgspec
 from executor import child_messages, messages
 from executor.adapter_messages import AdapterText, StartAdapter
 from executor.session.debugger.dap import CAPABILITIES, OWN_SEQ, Refused, checked, made_by_hand, named
+from executor.session.debugger.lines import with_one_condition
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.recording import FlagRefused
 
@@ -69,13 +70,12 @@ class PythonDebugger:
         self._is_told = False
         self._is_traced = True
         self._set: dict[str, bool] = {}
+        self._settings = 0
         self._stop: dict[str, Any] = {}
         self._stepping_from: int | None = None
         self._last_change = ""
         self._counts_after: int | None = None
         """A beat after so many says how many ticks were whole before the first change by hand."""
-
-    # --- the client -------------------------------------------------------------------------------
 
     def ask(self, event: CommandCame, data: messages.Dap) -> None:
         """Handles a request of the driver's client."""
@@ -127,7 +127,13 @@ class PythonDebugger:
         change = made_by_hand(request)
         if change:
             self._note_change(change)
-        self._request(request.command, request.arguments, request.seq)
+        arguments = request.arguments
+        if request.command == "setBreakpoints":
+            self._settings += 1
+            path = arguments["source"]["path"].removeprefix(f"{self._stage.run.folder}/")
+            joined = with_one_condition(arguments.get("breakpoints"), self._settings, path)
+            arguments = arguments | {"breakpoints": joined}
+        self._request(request.command, arguments, request.seq)
 
     def _follow_breakpoints(self, request: Request) -> None:
         """Stops the tracing of the program while nothing can stop it: each call of its code would cost."""
@@ -159,6 +165,18 @@ class PythonDebugger:
         with contextlib.suppress(FlagRefused):  # the line in the log says it, too
             stage.recording.flag(messages.Flag(text), stage.clients.user(self.client))
 
+    def cannot_stop(self, message: child_messages.PythonLineWrong) -> None:
+        """Reports a breakpoint that cannot do what it says: in the console, and at its line to the client."""
+        stage = self._stage
+        text = f"{message.path}:{message.line}: {message.text}"
+        stage.output.emit(messages.Log("action", "warning", text, time=stage.sim_time_s))
+        if self.client:
+            place = {"source": {"path": message.path}, "line": message.line}
+            self._tell(
+                "breakpoint",
+                {"reason": "changed", "breakpoint": {"verified": False, "message": message.text, **place}},
+            )
+
     def _answer(self, request: Request, error: str = "", body: dict[str, Any] | None = None) -> None:
         answer: dict[str, Any] = {
             "type": "response",
@@ -176,8 +194,6 @@ class PythonDebugger:
     def _send(self, message: dict[str, Any]) -> None:
         self._seq += 1
         self._stage.output.send(self.client, messages.Dap({"seq": self._seq, **message}))
-
-    # --- the adapter ------------------------------------------------------------------------------
 
     @property
     def is_wanted(self) -> bool:
@@ -300,8 +316,6 @@ class PythonDebugger:
     def _forward(self, message: dict[str, Any]) -> None:
         if self.client:
             self._stage.output.send(self.client, messages.Dap(named(message, self._stage.run.folder)))
-
-    # --- held -------------------------------------------------------------------------------------
 
     def _hold(self) -> None:
         """The program is stopped at a line: the world is paused, too."""

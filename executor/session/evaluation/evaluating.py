@@ -94,6 +94,7 @@ class Evaluating:
                     sequential=begun.sequential,
                     duration_s=begun.duration_s,
                     plan=begun.plan,
+                    notes=begun.notes,
                 )
                 self._tell(job, job.started)
             case evaluation_messages.RunDone() as done:

@@ -120,8 +120,6 @@ class Snapshots:
             self._stage.output.effect(DropSnapshot(*each.kept.key))
         self._there = []
 
-    # --- inside ---
-
     def _trim(self, ceiling_bytes: int = CEILING_BYTES) -> None:
         draws = bool(self._there) and self._there[-1].taken.draws
         dropped = surplus([each.kept for each in self._there], draws=draws, ceiling_bytes=ceiling_bytes)

@@ -94,8 +94,6 @@ class Sources:
         if self._aside.is_silent(now_s):
             self._fail(LATE)
 
-    # --- inside ---
-
     def _show(self, job: _Job, message: child_messages.TickSource) -> None:
         found = child_messages.event_of(message, messages.TickSource)
         found = structs.replace(found, job=job.name, differs=job.differs, problem="")

@@ -91,8 +91,6 @@ class Trying:
         if self._aside.is_silent(now_s):
             self._end("failed", LATE)
 
-    # --- inside ---
-
     def _continued(self, job: _Job, message: Struct) -> None:
         """Handles what the process says of the continuations; users' code runs in it."""
         name = job.data.job

@@ -5,20 +5,11 @@ from __future__ import annotations
 import base64
 import contextlib
 import io
-import sys
 import zipfile
-from pathlib import Path
 
-import psutil
+from tests.executor.session_client import SessionClient
+from tests.executor.warm import WarmManager, warm_session
 
-from executor.manager.manager import Manager, ManagerSettings, free_domain_id
-from executor.manager.programs import session_programs
-from executor.ros.environment import ros_environment
-from executor.supervision.processes import Program
-from tests.executor.session_client import TOKEN, SessionClient
-from tests.processes import with_word
-
-ROOT = Path(__file__).parents[3]
 HEAD = """import py_trees
 from py_trees.common import Status
 
@@ -50,24 +41,28 @@ def run_data(app_zip, **more):
     return {"universe": {"universe": "x"}, "application": {"app_zip_base64": app_zip, "tick_hz": 20.0} | more}
 
 
+CLOCK = "tests.fakes.clock_manager"
+LIMITED = (CLOCK, "--memory", str(1500 << 20), "--file", str(20 << 20), "--processes", "200")
+"""The manager whose application has small limits."""
+
+
 @contextlib.asynccontextmanager
-async def session(*, limits=None, mute_after_s=float("inf")):
-    """Opens a session with a fake world and the real application."""
-    domain_id = free_domain_id()
-    programs = session_programs(domain_id)
-    world = (sys.executable, str(ROOT / "tests/fakes/clock_world.py"), "--mute-after", str(mute_after_s))
-    programs["world"] = Program(world, {**ros_environment(domain_id), "PYTHONPATH": str(ROOT)})
-    if limits is not None:
-        own = programs["application"]
-        programs["application"] = Program(own.arguments, own.environment, limits)
-    manager = Manager(ManagerSettings(port=0, token=TOKEN, domain_id=domain_id, programs=programs))
-    client = await SessionClient(await manager.start()).open(stream=False)
-    try:
+async def session(*command):
+    """Opens a session with a fake world and the real application, of a manager that other tests use, too."""
+    async with warm_session(*(command or (CLOCK,)), stream=False) as (_, client):
         yield client
+
+
+@contextlib.asynccontextmanager
+async def own_session(*arguments):
+    """Opens such a session with its own processes; yields its manager and a client."""
+    manager = WarmManager(CLOCK, *arguments)
+    try:
+        client = await SessionClient(manager.port).open(stream=False)
+        yield manager, client
         await client.close()
     finally:
-        await manager.close()
-        assert with_word("channel-fd", psutil.Process().children(recursive=True)) == []
+        manager.close()
 
 
 async def second_run_works(client):

@@ -8,6 +8,7 @@ from tests.executor.application.real_application import (
     UPDATE_RUNNING,
     action,
     app,
+    own_session,
     run_data,
     second_run_works,
     session,
@@ -92,7 +93,7 @@ async def test_a_tick_that_holds_the_interpreter_is_named_and_the_application_en
 
 
 async def test_a_sleep_that_holds_the_interpreter_is_named_too():
-    async with session() as client:
+    async with own_session() as (_, client):
         assert await client.ask("run", run_data(app(SLEEPS_WITH_THE_LOCK))) == "ack"
         fault = (await client.event("fault"))["data"]
         assert (fault["kind"], fault["node_id"], fault["line"]) == ("timeout", "n1", 8)
@@ -153,7 +154,7 @@ async def test_an_application_that_hears_no_time_is_started_again_once(tmp_path)
 
 
 async def test_a_world_that_publishes_no_time_is_reported_and_finally_ended():
-    async with session(mute_after_s=0.5) as client:
+    async with own_session("--mute-after", "0.5") as (_, client):
         assert await client.ask("run", run_data(app(UPDATE_RUNNING))) == "ack"
         await client.event("state-changed", lambda d: d["state"] == "connected" and d["reason"])
         faults = client.named("fault")

@@ -11,6 +11,8 @@ from executor.application.locate import Place
 from executor.application.report import SAME_FAULT_INTERVAL_S, Reporter, describe_tree
 from tests.tree_gardener.trees import load
 from tree_gardener import LoadError, Status, TickError, Tree
+from tree_gardener.debugging import Force
+from tree_gardener.debugging.debugger import Debugger
 
 
 class Desk:
@@ -103,6 +105,21 @@ def test_a_tick_without_changes_that_clears_the_last_one_is_reported() -> None:
     assert desk.of(child_messages.Tick)[-1].past == []
 
 
+def test_a_tick_that_is_forced_is_reported_though_nothing_changes() -> None:
+    desk = Desk()
+    tree = load("<Sequence><Running/></Sequence>")
+    debugger = Debugger(lambda _: None)
+    tree.debug(debugger)
+    tree.observe(desk.reporter.ticked)
+    tree.tick_exactly_once()
+    debugger.force(Force(2, Status.RUNNING))
+    for _ in range(3):
+        tree.tick_exactly_once()
+    debugger.release()
+    tree.tick_exactly_once()
+    assert [(tick.n, tick.forced) for tick in desk.of(child_messages.Tick)] == [(1, []), (2, [2]), (5, [])]
+
+
 def test_a_held_tick_reports_what_it_has_written_so_far() -> None:
     sent: list[Any] = []
     reporter = Reporter(sent.append, lambda: 0.0)
@@ -115,3 +132,14 @@ def test_a_held_tick_reports_what_it_has_written_so_far() -> None:
     reporter.held(tree)
     [blackboard] = sent
     assert [(entry.key, entry.value) for entry in blackboard.entries] == [("n", 1)]
+
+
+def test_a_hold_at_a_line_of_python_reports_the_tick_so_far() -> None:
+    sent: list[Any] = []
+    reporter = Reporter(sent.append, lambda: 0.0)
+    tree = load("<Sequence><Succeeding/><Running/></Sequence>")
+    tree.tick_exactly_once()
+    reporter.held_in_python(tree, tree.nodes[2])
+    held = sent[0]
+    assert (held.uid, held.path, held.tick) == (3, [1, 3], 1)
+    assert held.statuses == [(1, "RUNNING"), (2, "SUCCESS"), (3, "RUNNING")]

@@ -171,9 +171,14 @@ def drive(example: Example, seed: int) -> Drive:
     return seen
 
 
-def main(arguments: list[str]) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Drives the named examples, or all, and prints a row for each; 1 if a run fails."""
-    seeds, names = int(arguments[0]), arguments[1:]
+    seeds, *names = sys.argv[1:] if arguments is None else arguments
+    has_failed = _drive_all(int(seeds), names)
+    return int(has_failed)
+
+
+def _drive_all(seeds: int, names: list[str]) -> bool:
     has_failed = False
     for example in RUNS:
         if names and example.name not in names:
@@ -184,8 +189,8 @@ def main(arguments: list[str]) -> int:
         print(f"| `{example.name}` | {example.wanted} | {share} |", flush=True)  # noqa: T201 - the result
         if failed:
             print(f"{example.name} failed with the seeds {failed}", file=sys.stderr)  # noqa: T201
-    return int(has_failed)
+    return has_failed
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -50,4 +50,5 @@ def main() -> None:
     print(json.dumps(found | {"stops": len(stops)}))  # noqa: T201 - the result
 
 
-main()
+if __name__ == "__main__":
+    main()

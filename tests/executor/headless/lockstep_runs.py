@@ -24,7 +24,6 @@ def main() -> None:
                     duration=duration_s,
                     lockstep=True,
                     seed=0,
-                    viewer=False,
                     report=report,
                     record=None,
                     as_json=False,

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from executor.headless.report import quantiles
+from tests.executor.forks import completed
 from tests.tree_gardener.debugging.hooked import free_port
 from tree_gardener import Status
 from tree_gardener.groot.client import Groot2Client, SilenceError
@@ -25,15 +26,11 @@ EXAMPLES = ROOT / "examples"
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
 
 
-def run(project: Path, duration_s: float, seed: int = 1, *more: str) -> dict[str, Any]:
-    command = [sys.executable, str(Path(__file__).with_name("lockstep_run.py"))]
-    done = subprocess.run(
-        [*command, str(project), str(duration_s), str(seed), *more],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def run(project: Path, duration_s: float, *more: str) -> dict[str, Any]:
+    return result_of(completed("tests.executor.headless.lockstep_run", project, duration_s, 1, *more))
+
+
+def result_of(done: "subprocess.CompletedProcess[str]") -> dict[str, Any]:
     assert done.returncode == 0, done.stderr
     result: dict[str, Any] = json.loads(done.stdout)
     return result
@@ -41,7 +38,16 @@ def run(project: Path, duration_s: float, seed: int = 1, *more: str) -> dict[str
 
 @pytest.fixture(scope="module")
 def bump_and_go() -> dict[str, Any]:
-    return run(EXAMPLES / "laser_bump_and_go", 60)
+    """A run in a fresh process, whose texts have other hashes and whose objects other addresses."""
+    script = Path(__file__).with_name("lockstep_run.py")
+    done = subprocess.run(
+        [sys.executable, str(script), str(EXAMPLES / "laser_bump_and_go"), "60", "1"],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return result_of(done)
 
 
 def test_bump_and_go_travels_turns_and_never_collides(bump_and_go: dict[str, Any]) -> None:
@@ -84,7 +90,7 @@ def test_the_same_run_comes_out_the_same(bump_and_go: dict[str, Any]) -> None:
 def test_a_run_that_is_held_at_each_node_and_continued_comes_out_the_same(
     bump_and_go: dict[str, Any],
 ) -> None:
-    held = run(EXAMPLES / "laser_bump_and_go", 60, 1, "held")
+    held = run(EXAMPLES / "laser_bump_and_go", 60, "held")
     assert held["stops"] > 5 * held["report"]["ticks"]
     assert held["same"] == bump_and_go["same"]
 
@@ -97,11 +103,14 @@ def test_follow_person_keeps_them_in_sight_and_finds_them_again() -> None:
     window = [(t, away, is_seen) for t, away, is_seen in ticks if first <= t < first + 60]
     assert len(window) == 1200
     assert sum(is_seen for _, _, is_seen in window) / len(window) >= 0.8
-    assert all(0.8 <= away <= 3.0 for _, away, is_seen in window if is_seen)
     lost = [t for (t, _, now), (_, _, before) in zip(window[1:], window, strict=False) if before and not now]
     found = [t for (t, _, now), (_, _, before) in zip(window[1:], window, strict=False) if now and not before]
-    assert len(lost) == len(found) == 1
+    # The person walks behind the screen each 39 s; the window may end while it is there again.
+    assert len(found) == 1 <= len(lost) <= 2
     assert found[0] > lost[0] + 1
+    catches_up = found[0] + 3  # the person has walked on meanwhile
+    assert all(0.8 <= away <= 4.0 for _, away, is_seen in window if is_seen)
+    assert all(away <= 3.0 for t, away, is_seen in window if is_seen and not found[0] <= t < catches_up)
     assert result["report"]["collisions"] == 0
 
 

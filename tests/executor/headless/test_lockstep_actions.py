@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import psutil
 import pytest
 
 if TYPE_CHECKING:
@@ -83,6 +84,12 @@ class Runner:
         answer = json.loads(process.stdout.readline())
         assert "Traceback" not in answer["said"]
         return answer["status"], answer["report"], answer["said"]
+
+    def children(self) -> list[psutil.Process]:
+        """Returns the processes that it has left."""
+        assert self._process is not None
+        found = psutil.Process(self._process.pid).children(recursive=True)
+        return [each for each in found if each.status() != psutil.STATUS_ZOMBIE]
 
     def end(self) -> None:
         """Ends the process; it must have outlived all runs."""
@@ -240,6 +247,30 @@ def test_waiting_without_end_ends_with_the_run(tmp_path: Path) -> None:
     assert status == 1
     assert "waited in rclpy until the end of the run" in said
     assert report["errors"][0]["line"] == 18
+
+
+STARTS = {
+    "a fork": "if os.fork() == 0:\n        time.sleep(600)",
+    "a process of multiprocessing": "multiprocessing.Process(target=time.sleep, args=(600,)).start()",
+    "a pool": "self.pool = concurrent.futures.ProcessPoolExecutor(2)\n    self.pool.submit(time.sleep, 600)",
+    "a command": "subprocess.Popen(['sleep', '600'])",
+    "one that its parent leaves": "subprocess.run('sleep 600 >/dev/null &', shell=True)",
+}
+
+
+@pytest.mark.parametrize("start", STARTS.values(), ids=STARTS)
+def test_processes_of_an_action_end_with_the_run_and_do_not_delay_its_end(tmp_path: Path, start: str) -> None:
+    body = f"""
+def setup(self, **kwargs):
+    import concurrent.futures, multiprocessing, os, subprocess
+    {start}
+def update(self):
+    return Status.SUCCESS
+"""
+    status, report, said = run(project(tmp_path, body))
+    assert (status, report["root_status"], report["errors"]) == (0, "SUCCESS", [])
+    assert "timeout" not in said
+    assert RUNNER.children() == []
 
 
 def test_modules_and_files_of_the_project_are_found(tmp_path: Path) -> None:

@@ -4,10 +4,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.domains import own_domain_id
+
 if TYPE_CHECKING:
     from rclpy.context import Context
 
-DOMAIN_ID = 221  # sessions use lower numbers
+DOMAIN_ID = own_domain_id()
 
 with warnings.catch_warnings():
     # rclpy's parser uses a module that Python 3.11 deprecates; the first node loads it.

@@ -77,9 +77,6 @@ def test_a_footprint_below_the_root_keeps_its_one_parent(tmp_path: Path) -> None
     assert frames_of(own_robot(tmp_path, "base_link", 0.0, more)) == {"base_link": ("odom", 0.0)}
 
 
-# --- covariance ---
-
-
 def test_the_covariance_is_that_of_many_runs() -> None:
     """The same path, many times with different noise: the scatter of the estimated poses."""
     config = load_robot("burger").drive.model_copy(update={"slip_noise": 0.01})
@@ -128,9 +125,6 @@ def test_the_message_has_the_covariance_that_filters_read() -> None:
     planar = matrix[np.ix_([0, 1, 5], [0, 1, 5])]
     assert planar == pytest.approx(_square(state.covariance) + np.diag([1e-6] * 3), abs=1e-12)
     assert np.linalg.eigvalsh(matrix).min() > 0, "filters invert it"
-
-
-# --- ground truth ---
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from rclpy.node import Node
 
 from executor.child_messages import ListTopics
 from executor.robots import load_robot
-from executor.ros.commands import Commands
+from executor.ros.commands import AWAIT_S, REPEAT_S, Commands
 from executor.ros.graph.topics import TopicError, TopicRequest, Topics
 from executor.ros.node import WorldNode
 from executor.ros.shared_topics import share_commands
@@ -88,6 +88,51 @@ def test_a_robot_for_twist_alone_never_creates_a_second_participant(
         assert commands.take(1.0) == (None, True)
     for each in (node, other):
         each.destroy_node()
+
+
+def test_a_publisher_of_the_second_type_is_found_by_the_next_look(context: Context, outside: Context) -> None:
+    node, other = Node("world", context=context), Node("driver", context=outside)
+    made: list[Node] = []
+
+    def second() -> Node:
+        made.append(other)
+        return other
+
+    commands = Commands(node, "/soon/cmd_vel", "both", 0.6, second)
+    other.create_publisher(TwistStamped, "/soon/cmd_vel", 10)
+    end_s = time.monotonic() + WAIT_S
+    while not node.get_publishers_info_by_topic("/soon/cmd_vel") and time.monotonic() < end_s:
+        time.sleep(0.01)
+    commands.take(1.0)
+    assert made == [other]
+    for each in (node, other):
+        each.destroy_node()
+
+
+def test_the_world_waits_for_a_publisher_that_it_has_seen_and_for_what_that_repeats(
+    context: Context, outside: Context
+) -> None:
+    far = Context()
+    rclpy.init(context=far, domain_id=DOMAIN_ID)
+    node, other = Node("world", context=context), Node("driver", context=outside)
+    second = Node("second", context=far)
+    commands = Commands(node, "/seen/cmd_vel", "both", 0.6, lambda: second)
+    assert not commands.awaits_publisher(time.monotonic())
+    other.create_publisher(TwistStamped, "/seen/cmd_vel", 10)
+    end_s = time.monotonic() + WAIT_S
+    while not node.get_publishers_info_by_topic("/seen/cmd_vel") and time.monotonic() < end_s:
+        time.sleep(0.01)
+    commands.take(1.0)
+    seen_s = time.monotonic()
+    assert commands.awaits_publisher(seen_s)
+    assert not commands.awaits_publisher(seen_s + AWAIT_S), "at most so long"
+    while not commands._subscriptions[TwistStamped].get_publisher_count() and time.monotonic() < end_s:
+        time.sleep(0.01)
+    assert commands.awaits_publisher(seen_s)
+    assert not commands.awaits_publisher(seen_s + REPEAT_S)
+    for each in (node, other, second):
+        each.destroy_node()
+    far.try_shutdown()
 
 
 def test_a_robot_for_twist_stamped_alone_uses_the_first_participant(context: Context) -> None:

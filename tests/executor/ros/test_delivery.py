@@ -15,9 +15,10 @@ import pytest
 from executor.ros.environment import ros_environment
 from executor.supervision.channel import Channel, socket_pair
 from tests.budget import count
+from tests.domains import own_domain_id
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 222
+DOMAIN_ID = own_domain_id()
 PICTURES = count("camera_delivery")
 # A slow speed: the test is that nothing is lost, whatever the speed of this machine. The full count needs
 # an idle machine.

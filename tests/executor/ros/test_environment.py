@@ -16,11 +16,12 @@ from executor.ros.environment import (
     ports_of_its_own,
     ros_environment,
 )
+from tests.domains import own_domain_id
 
 if TYPE_CHECKING:
     import pytest
 
-DOMAIN_ID = 221  # sessions take none over 200
+DOMAIN_ID = own_domain_id()
 
 
 def first_free_participant() -> int:

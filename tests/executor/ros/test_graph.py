@@ -13,10 +13,11 @@ import pytest
 
 from executor.ros.environment import has_tf, ros_environment
 from executor.supervision.channel import Channel, socket_pair
+from tests.domains import own_domain_id
 from tests.executor.ros.test_delivery import wait_for
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 223
+DOMAIN_ID = own_domain_id()
 HEARD_S = 3.0  # of simulated time
 
 # topic: type, reliable, frame, rate; pictures are left out, since test_delivery counts them

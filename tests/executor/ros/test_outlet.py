@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).parents[3]
 FREEZES = 6
+SPEED = 5.0
 LISTENER = """
 import rclpy
 from sensor_msgs.msg import Image, LaserScan
@@ -41,6 +43,31 @@ def until(condition: Callable[[], bool], limit_s: float = 20.0) -> None:
     while not condition():
         assert time.monotonic() < end_s
         time.sleep(0.005)
+
+
+def test_what_is_sent_ends_with_its_last_value_so_that_rosbags_reads_it() -> None:
+    from rosbags.typesys import Stores, get_typestore
+
+    from executor.ros.messages import joint_state
+    from executor.ros.outlet import Outlet
+
+    types = get_typestore(Stores.ROS2_JAZZY)
+    sent: list[bytes] = []
+    outlet = Outlet(lambda _, data: sent.append(data))
+
+    def has(count: int) -> bool:
+        return len(sent) == count
+
+    try:
+        for count in range(1, 5):
+            names = [f"joint{'_' * number}" for number in range(count)]
+            outlet.publish("publisher", joint_state(dict.fromkeys(names, (1.0, 2.0)), 0.5))
+            until(partial(has, count))
+            read: Any = types.deserialize_cdr(sent[-1], "sensor_msgs/msg/JointState")
+            assert (read.name, list(read.velocity), list(read.effort)) == (names, [2.0] * count, [])
+            assert bytes(types.serialize_cdr(read, "sensor_msgs/msg/JointState")) == sent[-1]
+    finally:
+        outlet.close()
 
 
 def test_a_message_arrives_as_rclpy_would_send_it(context: Context) -> None:
@@ -128,7 +155,9 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
         [sys.executable, "-c", LISTENER], env=environment, stdout=subprocess.PIPE, text=True
     )
     try:
-        channel.send({"type": "start", "universe": "walled_room", "seed": 1, "domain_id": domain_id})
+        channel.send(
+            {"type": "start", "universe": "walled_room", "seed": 1, "speed": SPEED, "domain_id": domain_id}
+        )
         channel.send({"type": "resume"})
         assert listener.stdout is not None
         late = 0
@@ -142,7 +171,8 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
                 begun_s = time.monotonic()
                 answered(channel)
                 asked_s.append(time.monotonic() - begun_s)
-                time.sleep(0.1)  # the spread is the test: the world publishes several times between requests
+                # The spread is the test: the world publishes several times between requests.
+                time.sleep(0.1 / SPEED)
             # A blocked world would take two seconds and more; a busy machine may cause one late answer.
             late += max(asked_s) > 1.5
             listener.send_signal(signal.SIGCONT)

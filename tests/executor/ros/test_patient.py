@@ -13,6 +13,7 @@ from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
 from executor.ros.spin import LOOK_EVERY, PatientExecutor
+from tests.domains import own_domain_id
 
 LONG_S = 20.0  # the test's time-out detects a missing wake-up
 
@@ -20,7 +21,7 @@ LONG_S = 20.0  # the test's time-out detects a missing wake-up
 @pytest.fixture
 def node() -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=224)
+    rclpy.init(context=context, domain_id=own_domain_id())
     made = Node("spun", context=context)
     yield made
     made.destroy_node()

@@ -11,12 +11,13 @@ from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
 from executor.ros.spin import LOOK_EVERY, MOST_CALLS, DrainingExecutor
+from tests.domains import own_domain_id
 
 
 @pytest.fixture
 def node() -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=222)
+    rclpy.init(context=context, domain_id=own_domain_id())
     made = Node("spun", context=context)
     yield made
     made.destroy_node()

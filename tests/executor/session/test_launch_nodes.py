@@ -61,7 +61,7 @@ async def test_nodes_live_with_the_application_and_are_listed_with_their_output(
         [process] = processes_of("talker.py")
         os.kill(process.pid, signal.SIGKILL)
         fault = (await client.event("fault", after=at))["data"]
-        assert fault["message"] == "The node talker was killed by SIGKILL."
+        assert fault["message"].startswith("The node talker was ended at once")
         assert (fault["file"], fault["line"]) == ("launch/extra.launch.yaml", 3)
         assert client.state == "application_running"
         assert (await client.ask("restart_node", {"id": ghost["id"]}))["code"] == "unknown_node"
@@ -75,6 +75,37 @@ async def test_nodes_live_with_the_application_and_are_listed_with_their_output(
         await client.close()
 
 
+PUBLISHER = """import rclpy
+from geometry_msgs.msg import Twist
+rclpy.init()
+node = rclpy.create_node("publisher")
+publisher = node.create_publisher(Twist, "/other", 1)
+
+
+def publish():
+    twist = Twist()
+    twist.linear.x = 1
+    publisher.publish(twist)
+
+
+node.create_timer(0.1, publish)
+rclpy.spin(node)
+"""
+
+
+async def test_a_wrong_field_of_a_message_is_said_with_its_place_and_remedy():
+    sentence = "geometry_msgs/Vector3.x takes a float, not the int 1: write 1.0"
+    async with manager() as it:
+        client = await SessionClient(it.port).open()
+        launch = "launch:\n  - node: {exec: launch/publisher.py, name: publisher}\n"
+        assert await client.ask("run", run_with(launch, publisher=PUBLISHER)) == "ack"
+        fault = (await client.event("fault"))["data"]
+        assert fault["message"] == f"The node publisher ended with exit code 1: {sentence}."
+        assert (fault["file"], fault["line"]) == ("launch/publisher.py", 10)
+        assert f"launch/publisher.py:10: {sentence}" in [log["text"] for log in client.named("log")]
+        await client.close()
+
+
 async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
     async with manager() as it:
         client = await SessionClient(it.port).open()
@@ -85,8 +116,6 @@ async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
         assert (fault["kind"], fault["file"], fault["line"]) == ("load", "launch/extra.launch.yaml", 2)
         await client.close()
 
-
-# --- the state machine alone ----------------------------------------------------------------------
 
 NODE = NodeSpec("a", "a", "", "a.py", "launch/a.launch.yaml", 1, ("python", "a.py"))
 

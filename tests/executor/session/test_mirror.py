@@ -10,6 +10,8 @@ from executor.messages import (
     Fault,
     Finished,
     FlagSet,
+    Held,
+    HeldInPython,
     LaunchNode,
     LaunchNodes,
     Log,
@@ -136,3 +138,18 @@ def test_the_kept_lines_know_where_runs_began() -> None:
     assert mirror.snapshot().run_starts == [(0, 2)]
     mirror.apply(Log("action", "info", "last"))
     assert mirror.snapshot().run_starts == []
+
+
+def test_a_hold_at_a_line_of_python_is_known_until_the_program_continues():
+    mirror = Mirror()
+    hold = HeldInPython(3, [1, 3], 4)
+    for over in (
+        StateChanged(State.APPLICATION_RUNNING.value),
+        Tick(n=4, changed=[], flashed=[], duration_ms=1.0),
+        Held(3, [1, 3], "step over", [], "step", "before", 4),
+    ):
+        mirror.apply(StateChanged(State.HELD.value))
+        mirror.apply(hold)
+        assert mirror.snapshot().held_in_python is hold
+        mirror.apply(over)
+        assert mirror.snapshot().held_in_python is None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from executor.session import streaming
-from executor.session.events import StreamClosed, StreamOpened
+from executor.session.events import ClientLeft, StreamClosed, StreamOpened
 from executor.session.ladder import State
 from tests.executor.session.play import Play
 
@@ -26,3 +26,19 @@ def test_a_new_world_is_asked_again() -> None:
     play.command("subscribe", stream="poses")
     play.climb(State.VISUALIZATION_READY)
     assert play.told("world").count("subscribe") == 1
+
+
+def test_a_page_that_closes_after_its_world_has_died_asks_the_spare_one_for_nothing() -> None:
+    play = Play()
+    play.happens(StreamOpened("d"))
+    play.climb(State.VISUALIZATION_READY)
+    play.command("subscribe", stream="poses")
+    play.command("subscribe", stream="scan")
+    play.command("echo_topic", topic="/odom")
+    play.child_dies("world")
+    assert play.state is State.CONNECTED
+    told = len(play.told("world"))
+    play.command("unsubscribe", stream="scan")
+    play.happens(StreamClosed("d"))
+    play.happens(ClientLeft("d"))
+    assert play.told("world")[told:] == []

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 import pytest
+from py_trees.blackboard import Blackboard
 
 from executor.application.changes.recorded_board import restore, said_of
 from tree_gardener import Tree
@@ -66,3 +67,17 @@ def test_the_first_entries_that_are_left_empty_are_named() -> None:
     said = "Left empty, since the recording does not hold these values: "
     assert said_of(["a", "b"]) == f"{said}a, b."
     assert said_of(["k"] * 23) == f"{said}{', '.join(['k'] * 20)}, and 3 more."
+
+
+def test_keys_of_py_trees_are_written_where_its_clients_read_them() -> None:
+    Blackboard.clear()
+    try:
+        _, empty = given(
+            ["py_trees:/robot/", "speed", "double", 2],
+            ["py_trees:/robot/", "pose", "Pose", [1]],
+            ["py_trees:patrol", "Sequence", "Status", "RUNNING"],
+        )
+        assert empty == ["py_trees:/robot//pose"]
+        assert repr(Blackboard.get("/robot/speed")) == "2.0"
+    finally:
+        Blackboard.clear()

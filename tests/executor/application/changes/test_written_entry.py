@@ -38,3 +38,8 @@ def test_why_an_entry_cannot_be_written_is_said() -> None:
     assert "count" in why
     assert why.endswith(".")
     assert tree.blackboard.get("count") == 2
+
+
+def test_an_entry_of_py_trees_is_only_read() -> None:
+    why = write(Tree.from_xml(TEXT), "py_trees:/robot/", "speed", 1)
+    assert why == "The entry 'speed' is one of py_trees: only its clients can write it."

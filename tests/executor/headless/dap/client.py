@@ -17,12 +17,16 @@ ROOT = Path(__file__).parents[4]
 DEADLINE_S = 200.0
 
 
+ADAPTER = (sys.executable, "-m", "backend.cli.main", "dap")
+
+
 class DapClient:
     """Starts `bt-studio dap`, and ends it at the end of the block."""
 
-    def __init__(self) -> None:
+    def __init__(self, *through: str) -> None:
+        """Starts the adapter, through another command if there is one."""
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "backend.cli.main", "dap"],
+            [*through, *ADAPTER],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             cwd=ROOT,

@@ -70,7 +70,8 @@ def test_lines_of_a_diagram(tree: Tree) -> None:
         ("a.xml", b"<root>", "can be read"),
         ("a.xml", b"<root><BehaviorTree ID='X'/></root>", "no tree that runs"),
         ("a.xml", b"<root><BehaviorTree ID='Main'><Sequence/></BehaviorTree></root>", "are not those"),
-        ("a.py", b"", "no tree of this project"),
+        ("a.txt", b"", "no tree of this project"),
+        ("a.py", b"", "no tree of this project; breakpoints in Python are set in the page"),
     ],
 )
 def test_a_file_without_blocks_says_why(tree: Tree, path: str, data: bytes, why: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+import shutil
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -126,6 +127,35 @@ def test_lines_of_xml_with_its_blackboard(tmp_path: Path) -> None:
         client.ask("continue", threadId=1)
         assert client.event("exited")["exitCode"] == 0
         assert "after 1 ticks" in client.printed
+        assert client.process.wait(60) == 0
+
+
+def test_an_editor_on_another_machine_starts_the_adapter_by_ssh(tmp_path: Path) -> None:
+    near, far = tmp_path / "near" / "bump", tmp_path / "far" / "work" / "bump"
+    for copy in (near, far):
+        shutil.copytree(EXAMPLE, copy)
+    ssh = tmp_path / "ssh"  # as ssh does: the words behind the host go to a shell, which starts elsewhere
+    ssh.write_text(f'#!/bin/sh\nshift\ncd {tmp_path}/far\nexport PYTHONPATH={ROOT}\nexec sh -c "$*"\n')
+    ssh.chmod(0o755)
+    tree = near / "trees" / "MainTree.json"
+    line = line_of(tree, "CheckObstacle")
+    with DapClient(str(ssh), "robot") as client:
+        client.ask("initialize", adapterID="bt-studio")
+        assert "absolute path" in client.refused("launch", project="work/bump", localRoot="near/bump")
+        client.ask("launch", project="work/bump", localRoot=str(near), duration=5)
+        client.event("initialized")
+        [there, unknown] = [
+            client.ask("setBreakpoints", source={"path": str(path)}, breakpoints=[{"line": line}])[
+                "breakpoints"
+            ][0]
+            for path in (tree, far / "trees" / "MainTree.json")
+        ]
+        assert there["verified"]
+        assert unknown["message"] == "the file is no tree of this project"
+        client.ask("configurationDone")
+        assert at(client)[1] == line
+        assert client.ask("stackTrace", threadId=1)["stackFrames"][0]["source"]["path"] == str(tree)
+        client.stdin.close()  # the connection is cut
         assert client.process.wait(60) == 0
 
 

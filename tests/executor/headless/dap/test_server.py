@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from executor.headless.dap.lines import Lines
+from executor.headless.dap.paths import Folder
 from executor.headless.dap.server import Server
 from executor.headless.dap.wire import Request
+from tests.deadline import DEADLINE_S
 from tests.executor.headless.dap.test_lines import XML
 from tree_gardener import Tree
 from tree_gardener.debugging import Debugger, DebuggingEnded
@@ -21,8 +23,7 @@ if TYPE_CHECKING:
 
     from tree_gardener.debugging import Stop
 
-FOLDER = Path("/project")
-DEADLINE_S = 60.0
+FOLDER = Folder(Path("/project"))
 
 
 class Client:
@@ -162,7 +163,9 @@ def test_a_wrong_breakpoint_says_why_and_the_others_hold(client: Client) -> None
     assert [each["verified"] for each in answers] == [True, False, False, False, False, False]
     assert all(each["message"] for each in answers[1:])
     [other] = set_at(client, {"line": 7}, path="/elsewhere/t.xml")
-    assert "no tree of this project" in other["message"]
+    assert other["message"].startswith("the file is no tree of this project; if the editor runs on another")
+    [python] = set_at(client, {"line": 7}, path="/project/actions/Go.py")
+    assert "in Python are set in the page" in python["message"]
     assert "need the path" in client.ask("setBreakpoints", source=3, breakpoints=[])
     assert "1000 at most" in client.ask(
         "setBreakpoints", source={"path": "t.xml"}, breakpoints=[{"line": 7}] * 1001

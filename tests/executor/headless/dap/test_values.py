@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+import json
+
 import pytest
 
 from executor.headless.dap.values import Values, ValuesError, evaluated, shown
+from tests.fakes.hostile_values import VALUES
 from tree_gardener import Tree
 from tree_gardener.blackboard import EMPTY
 
@@ -80,5 +85,15 @@ def test_keys_and_scripts_are_evaluated(tree: Tree) -> None:
 
 def test_any_value_has_a_text() -> None:
     assert shown(EMPTY) == "(empty)"
-    assert shown(Broken()) == "<Broken: no>"
+    assert shown(Broken()) == "<Broken; its repr raised ValueError>"
     assert len(shown("x" * 5000)) == 1000
+
+
+@pytest.mark.parametrize("number", range(len(VALUES)))
+def test_any_value_of_a_user_can_be_looked_at(tree: Tree, number: int) -> None:
+    values = Values()
+    with contextlib.redirect_stdout(io.StringIO()):
+        found = values.described(VALUES[number], tree.nodes[0])
+        if found["variablesReference"]:
+            found |= {"parts": values.variables(found["variablesReference"])}
+    json.dumps(found).encode()

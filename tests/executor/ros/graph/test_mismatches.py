@@ -104,6 +104,12 @@ class Graph:
     def get_topic_names_and_types(self) -> list[tuple[str, list[str]]]:
         return [("/odom", [])]
 
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        return []
+
+    def count_publishers(self, _: str) -> int:
+        return len(self._ends[0])
+
     def get_publishers_info_by_topic(self, _: str) -> list[End]:
         return self._ends[0]
 
@@ -137,3 +143,26 @@ def test_types_that_differ(
     mismatches.look()
     assert [(found["publisher"], found["subscriber"]) for found in told] == expected
     assert all(found["reason"] == "type" and "same message type" in found["hint"] for found in told)
+
+
+def test_an_end_that_is_missing_is_reported_when_it_does_not_come(graph: Any) -> None:
+    from sensor_msgs.msg import LaserScan
+
+    from executor.ros.graph.mismatches import PATIENCE
+
+    world, application, told, mismatches = graph
+    application.create_subscription(LaserScan, "/lidar", print, 10)
+    for _ in range(PATIENCE - 1):
+        mismatches.look()
+    assert told == []
+    mismatches.look()
+    mismatches.look()
+    [found] = told
+    assert (found["topic"], found["subscriber"], found["code"]) == (
+        "/lidar",
+        "/bt_application",
+        "unpublished",
+    )
+    world.create_publisher(LaserScan, "/lidar", 10)
+    mismatches.look()
+    assert told[1:] == [{**found, "resolved": True}]

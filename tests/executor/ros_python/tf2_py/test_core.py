@@ -42,7 +42,7 @@ def about_z(angle: float) -> tuple[float, float, float, float]:
 
 
 def plain(x: float, angle: float = 0.0) -> Any:
-    return (x, 0.0, 0.0), about_z(angle)
+    return (float(x), 0.0, 0.0), about_z(angle)
 
 
 def matrix(message: TransformStamped) -> NDArray[np.float64]:
@@ -70,9 +70,6 @@ def buffer_of(transforms: Iterable[TransformStamped], **options: Any) -> Any:
 
 def at(seconds: float) -> Time:
     return Time(nanoseconds=round(seconds * 1e9))
-
-
-# --- composition ---
 
 
 @given(poses, poses, poses)
@@ -105,9 +102,6 @@ def test_between_two_samples_it_moves_straight_and_turns_evenly(one: Any, two: A
 def _angle(turn: NDArray[np.float64]) -> float:
     vector = turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]
     return math.atan2(math.hypot(*vector), float(np.trace(turn)) - 1)
-
-
-# --- time ---
 
 
 def test_time_0_is_the_latest_that_both_know() -> None:
@@ -167,9 +161,6 @@ def test_from_one_time_to_another_by_a_fixed_frame() -> None:
     assert Time.from_msg(found.header.stamp).nanoseconds == 3_000_000_000
 
 
-# --- errors ---
-
-
 def test_an_unknown_frame_and_a_split_tree_are_distinguished() -> None:
     from tf2_ros import ConnectivityException, InvalidArgumentException, LookupException
 
@@ -212,9 +203,6 @@ def test_a_jump_back_in_time_clears_dynamic_transforms() -> None:
     buffer.time_jump_callback(None)
     assert not buffer.can_transform("map", "base", Time())
     assert buffer.can_transform("base", "laser", Time())
-
-
-# --- geometry ---
 
 
 def test_points_poses_and_vectors_come_into_another_frame() -> None:

@@ -343,3 +343,28 @@ def test_bytes_of_the_adapter_that_are_no_message_are_dropped():
     for text in (b"{", b"[]", b'{"type": "event"}', b'{"type": "response", "request_seq": "x"}', b"\xff"):
         play.happens(ChildSaid("adapter", number, adapter_messages.AdapterText(text)))
     assert play.state is State.APPLICATION_RUNNING
+
+
+def test_a_breakpoint_with_more_than_a_line_is_one_condition_and_its_count_begins_again():
+    play = Debugged()
+    play.begin()
+    line = {"line": 3, "condition": "n", "hitCondition": ">=2"}
+    for _ in range(2):
+        play.ask("setBreakpoints", source={"path": "actions/Act.py"}, breakpoints=[{"line": 2}, line])
+    [first, second] = [each["arguments"] for each in play.passed_on() if each["command"] == "setBreakpoints"]
+    assert first["breakpoints"][0] == {"line": 2}
+    assert first["breakpoints"][1].keys() == {"line", "condition"}
+    assert "'actions/Act.py', 3), 'n', 2" in first["breakpoints"][1]["condition"]
+    assert first["breakpoints"][1] != second["breakpoints"][1]
+
+
+def test_what_a_breakpoint_cannot_evaluate_is_reported_to_all_and_at_its_line():
+    play = Debugged()
+    play.begin()
+    play.child_says("application", "python_line_wrong", path="actions/Act.py", line=3, text="No name “n”.")
+    assert play.sent("log")[-1].text == "actions/Act.py:3: No name “n”."
+    told = play.messages()[-1]
+    assert (told["event"], told["body"]["breakpoint"]) == (
+        "breakpoint",
+        {"verified": False, "message": "No name “n”.", "source": {"path": "actions/Act.py"}, "line": 3},
+    )

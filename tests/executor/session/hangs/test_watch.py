@@ -85,7 +85,7 @@ def test_a_stopped_process_is_reported_after_2_s_and_ended_after_8(state, kind):
     play.goes_on(1)
     (fault,) = play.faults
     assert fault.kind == "timeout"
-    assert "SIGSTOP" in fault.message
+    assert fault.message.endswith("has not answered for more than 2 s: its process is stopped.")
     assert ("simulated world" if kind == "world" else "application") in fault.message
     assert play.state is state
     play.goes_on(4)
@@ -372,7 +372,9 @@ def test_without_simulated_time_the_application_is_started_again_once():
     assert "does not receive it" in fault.message
     assert play.told("application")[-3:] == ["stop", "start", "resume"]
     assert play.state is State.APPLICATION_RUNNING
-    play.goes_on(4)
+    play.goes_on(7)
+    assert len(play.faults) == 1, "it finds its peers late on a busy machine"
+    play.goes_on(3)
     assert len(play.faults) == 2
     assert play.state is State.CONNECTED
     play.deaf.clear()

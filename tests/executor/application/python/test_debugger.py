@@ -11,11 +11,11 @@ from typing import Any
 import psutil
 import pytest
 
-from executor.application.python_debugger import HOST
+from executor.application.python.debugger import HOST
 from executor.debug_adapter.framing import framed
 from executor.manager.allowance import BURST, COSTS, RATE_HZ
 from tests.budget import count
-from tests.executor.application.real_application import action, app, run_data, session
+from tests.executor.application.real_application import action, app, own_session, run_data, session
 from tests.processes import with_word
 
 COUNT = action("""
@@ -49,7 +49,7 @@ class Debugger:
 
     async def ask(self, command: str, **arguments: Any) -> dict[str, Any]:
         answer = await self.message_of(command, **arguments)
-        assert answer["success"], answer
+        assert answer["success"], answer.get("message") or answer
         return dict(answer.get("body") or {})
 
     async def message_of(self, command: str, **arguments: Any) -> dict[str, Any]:
@@ -122,6 +122,9 @@ async def test_a_line_holds_the_first_tick_shows_its_values_and_a_step_keeps_the
         stop = await debugger.event("stopped")
         await client.event("state-changed", lambda d: d["state"] == "held")
         assert client.named("held") == []
+        [hold] = client.named("held_in_python")
+        [block] = [node for node in client.named("tree")[-1]["nodes"] if node["uid"] == hold["uid"]]
+        assert (block["type"], hold["path"][-1], hold["tick"]) == ("Act", hold["uid"], 1)
         frame = await debugger.top(stop)
         assert (frame["name"], frame["line"], frame["source"]["path"]) == ("update", ADDS, FILE)
         this = (await debugger.locals(frame))["self"]["variablesReference"]
@@ -155,14 +158,24 @@ async def test_a_line_holds_the_first_tick_shows_its_values_and_a_step_keeps_the
 
 async def test_a_condition_a_log_line_and_an_exception():
     async with session() as client:
-        logs = {"line": ADDS + 1, "logMessage": "n is {self.n}"}
-        debugger = await begin(client, {"line": ADDS, "condition": "self.n == 5"}, logs)
+        logs = {"line": ADDS + 1, "logMessage": "n is {self.n:03} of {most}"}
+        at_five = {"line": ADDS, "condition": "self.n % 5 == 0", "hitCondition": ">=2"}
+        debugger = await begin(client, at_five, logs)
         stop = await debugger.event("stopped")
         frame = await debugger.top(stop)
         found = await debugger.ask("evaluate", expression="self.n", frameId=frame["id"], context="hover")
-        assert found["result"] == "5"
-        lines = [each["output"] for each in debugger.events("output")]
-        assert [line.strip() for line in lines if "n is" in line] == [f"n is {n}" for n in range(1, 6)]
+        assert found["result"] == "5", "the passes where the condition is true count: 0 and 5"
+        said = [each["text"] for each in client.named("log")]
+        assert [text for text in said if text.startswith("n is")] == [
+            f"n is 00{n} of {{most}}" for n in range(1, 6)
+        ]
+        nodes = {each["node_path"] for each in client.named("log") if each["text"].startswith("n is")}
+        assert nodes == {client.named("tree")[-1]["nodes"][-1]["path"]}, "a line names its block"
+        [wrong] = [text for text in said if "most" in text and not text.startswith("n is")]
+        assert wrong.startswith(f"{FILE}:{ADDS + 1}: “most” of the log line cannot be evaluated: NameError")
+        [told] = debugger.events("breakpoint")
+        assert told["breakpoint"]["source"] == {"path": FILE}
+        assert (told["breakpoint"]["line"], told["breakpoint"]["verified"]) == (ADDS + 1, False)
         await debugger.ask("setBreakpoints", source={"path": FILE}, breakpoints=[])
         await debugger.ask("setExceptionBreakpoints", filters=["raised"])
         await debugger.ask("evaluate", expression="setattr(self, 'n', 2000)", frameId=frame["id"])
@@ -171,6 +184,37 @@ async def test_a_condition_a_log_line_and_an_exception():
         stop = await debugger.event("stopped", at)
         assert stop["reason"] == "exception"
         assert (await debugger.ask("exceptionInfo", threadId=stop["threadId"]))["description"] == "too many"
+
+
+async def test_a_condition_with_a_name_that_nobody_knows_never_stops_and_is_reported_once():
+    async with session() as client:
+        debugger = await begin(client, {"line": ADDS, "condition": "self.m == 5"}, {"line": ADDS + 2})
+        await debugger.event("stopped")
+        said = [each["text"] for each in client.named("log") if "condition" in each["text"]]
+        assert len(said) == 1
+        assert "AttributeError" in said[0]
+
+
+async def test_the_answer_says_which_lines_have_no_code():
+    """It names another line; the page takes such a breakpoint back."""
+    source = action("""
+def update(self):
+    '''A docstring.'''
+    # a comment
+    return Status.RUNNING
+""")
+    first = source.split("\n").index("    def update(self):") + 1
+    async with session() as client:
+        debugger = Debugger(client)
+        await debugger.ask("initialize")
+        run = asyncio.create_task(client.ask("run", run_data(app(source, **{"actions__Act.py": source}))))
+        await debugger.event("initialized")
+        lines = [{"line": first + at} for at in range(4)]
+        found = await debugger.ask("setBreakpoints", source={"path": FILE}, breakpoints=lines)
+        assert [each["line"] - first for each in found["breakpoints"]] == [0, 0, 0, 3]
+        await debugger.ask("setBreakpoints", source={"path": FILE}, breakpoints=[])
+        await debugger.ask("configurationDone")
+        assert await run == "ack"
 
 
 async def test_a_program_that_runs_is_connected_and_continues_when_the_debugger_ends():
@@ -192,14 +236,15 @@ async def test_a_program_that_runs_is_connected_and_continues_when_the_debugger_
         assert client.named("fault") == []
 
 
+@pytest.mark.kills
 @pytest.mark.parametrize("who", ["adapter", "application"])
 async def test_a_process_that_is_killed_while_held_leaves_the_ladder_true(who: str):
-    async with session() as client:
+    async with own_session() as (manager, client):
         debugger = await begin(client, {"line": ADDS})
         await debugger.event("stopped")
         await client.event("state-changed", lambda d: d["state"] == "held")
         at = len(client.events)
-        [process] = with_word(f"executor.{MODULES[who]}", psutil.Process().children())
+        [process] = with_word(f"executor.{MODULES[who]}", psutil.Process(manager.pid).children())
         process.kill()
         state = "application_running" if who == "adapter" else "visualization_ready"
         await client.event("state-changed", lambda d: d["state"] == state, after=at)
@@ -221,10 +266,10 @@ async def test_the_program_is_ended_and_started_again_while_held():
 
 
 async def test_a_foreign_program_without_the_token_is_refused():
-    async with session() as client:
+    async with own_session() as (manager, client):
         debugger = await begin(client, {"line": ADDS})
         await debugger.event("stopped")
-        [own] = with_word("executor.debug_adapter.process", psutil.Process().children())
+        [own] = with_word("executor.debug_adapter.process", psutil.Process(manager.pid).children())
         [listener] = [c for c in own.net_connections("tcp") if c.status == psutil.CONN_LISTEN]
         assert listener.laddr.ip == HOST
         assert not any(len(word) == 64 for word in own.cmdline())

@@ -15,11 +15,13 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.child_messages import ConnectDebugger, Log
+from executor.application.python import holds, looks, stops
+from executor.child_messages import ConnectDebugger, Log, PythonLineWrong
 from executor.supervision.threads import own
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from types import FrameType
 
     from executor.child_messages import ToApplication
     from executor.supervision.pulse import Pulse
@@ -39,10 +41,17 @@ class PythonDebugger:
     Args:
         pulse: the signs of life of the process.
         send: sends the manager a message.
+        report: is called with the frame that will be held at a line.
     """
 
-    def __init__(self, pulse: Pulse, send: Callable[[Log], None]) -> None:
+    def __init__(
+        self,
+        pulse: Pulse,
+        send: Callable[[Log | PythonLineWrong], None],
+        report: Callable[[FrameType], None],
+    ) -> None:
         self.is_connected = False
+        self._report = report
         self._pulse = pulse
         self._send = send
 
@@ -67,9 +76,15 @@ class PythonDebugger:
 
     def connect(self, wanted: ConnectDebugger) -> None:
         """Connects with the adapter of the session, and reports if that is late or not possible."""
+        console = sys.stdout  # as for prints: with the block that writes, and a limit for floods
+        stops.tell_by(
+            lambda text: print(text, file=console),
+            lambda path, line, text: self._send(PythonLineWrong(path, line, text)),
+        )
         try:
             with self._pulse.busy("connecting"):  # its import takes a second or more
                 is_ready = connect(wanted, Path.cwd())
+                holds.report_by(self._report)
             self.is_connected = True
         except Exception as error:
             self._send(Log("warning", f"The Python debugger cannot be connected: {error}"))
@@ -95,10 +110,13 @@ def connect(wanted: ConnectDebugger, folder: Path, patience_s: float = PATIENCE_
     os.environ["IDE_PROJECT_ROOTS"] = str(folder)
     os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # it warns of Python's frozen modules
     os.environ["PYDEVD_WARN_SLOW_RESOLVE_TIMEOUT"] = "10"  # a busy machine is no reason for a warning
+    # It would say `continued` in the midst of a slow look; `looks` ends it instead.
+    os.environ["PYDEVD_UNBLOCK_THREADS_ON_VARIABLES_TIMEOUT"] = "-1"
     import debugpy  # noqa: PLC0415 - slow, and only for who debugs
 
     api: Any = debugpy
     api.configure(subProcess=False)
+    looks.bound()
     _end_last_connection()
     late: list[bool] = []
     timer = own(threading.Timer(patience_s, _give_up, (late,)))

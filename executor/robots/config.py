@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
@@ -20,15 +20,16 @@ from executor.robots.sensors import (
     Part,
     Positive,
     Sensor,
-    Strict,
     Topic,
 )
 from executor.robots.urdf import MOVING
-from executor.universes.document import DocumentError, Located, Problem, read_yaml
+from executor.universes.document import DocumentError, Located, Problem, read_yaml, text_of
 from executor.universes.loader import validate
+from executor.universes.strict import Strict
+from tree_gardener.packages import Place
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Mapping, Sequence
 
     from executor.messages import Mesh
     from executor.robots.urdf import Urdf
@@ -100,7 +101,7 @@ class RobotDocument(Strict):
 
     `command_type` is the message type of `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped` as
     for robots of ROS 2 Jazzy, or both. With `ground_truth` the robot publishes its true pose on
-    `/ground_truth/odom`.
+    `/ground_truth/odom`. `arguments` are values for the arguments of an xacro file, as text.
     """
 
     format: Literal["bt-studio/robot"]
@@ -108,6 +109,7 @@ class RobotDocument(Strict):
     name: str
     description: str = ""
     urdf: str
+    arguments: dict[str, str] = Field(default_factory=dict)
     drive: Drive
     command_type: CommandType = "both"
     ground_truth: bool = False
@@ -124,12 +126,12 @@ class RobotConfig:
 
     Args:
         wheels: links whose contacts do not count as collisions: wheels and casters.
-        friction: friction by link; 0.8 for links without an entry.
+        friction: friction by link, of `robot.yaml` or else of the URDF; 0.8 for links without an entry.
         joints: the joints with a motor, other than those of wheels.
         command_type: the message type of `/cmd_vel`.
         ground_truth: whether the robot publishes its true pose.
-        skid: factor of the friction along y by link, 0 to 1, for wheels that slide sideways when the robot
-            turns.
+        skid: factor of the friction along a wheel's axis by link, 0 to 1, for wheels that slide sideways when
+            the robot turns; along y for other links.
     """
 
     id: str
@@ -173,23 +175,25 @@ def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
         folders = {own: assets / own, **folders}
     for shown, folder in folders.items():
         if (folder / "robot.yaml").is_file():
-            return _read(robot_id, folder, shown)
+            return _read(robot_id, folder, shown, assets)
     near = difflib.get_close_matches(robot_id, robot_ids(), n=1)
     hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(robot_ids())}"
     raise RobotError([Problem(f"there is no robot {robot_id!r}", code="BTR001", hint=hint)], robot_id)
 
 
-def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
+def _read(robot_id: str, folder: Path, shown: str, assets: Path | None) -> RobotConfig:
     """Reads a robot; `shown` is the name of its folder in errors, a path of the project."""
     file = folder / "robot.yaml"
     try:
-        located = read_yaml(file.read_text(encoding="utf-8"), file.name)
+        located = read_yaml(text_of(file.read_bytes(), file.name), file.name)
         document = validate(located, RobotDocument, file.name)
     except DocumentError as error:
         raise RobotError(error.problems, f"{shown}/{file.name}") from error
     urdf_path = folder / document.urdf
-    urdf, meshes = _read_urdf(urdf_path, f"{shown}/{document.urdf}")
+    places = [Place(shown, folder)] + ([] if assets is None else [Place("the project", assets)])
+    urdf, meshes = _read_urdf(urdf_path, f"{shown}/{document.urdf}", places, document.arguments)
     _check_names(f"{shown}/{file.name}", located, document, urdf)
+    urdf = replace(urdf, notes=(*urdf.notes, *_stiff_wheels(document.drive, urdf, located)))
     return RobotConfig(
         id=robot_id,
         name=document.name,
@@ -201,7 +205,7 @@ def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
         command_type=document.command_type,
         ground_truth=document.ground_truth,
         wheels=document.wheels,
-        friction=document.friction,
+        friction=urdf.friction | document.friction,
         skid=document.skid,
         lidars=tuple(sensor for sensor in document.sensors if isinstance(sensor, Lidar)),
         cameras=tuple(sensor for sensor in document.sensors if isinstance(sensor, Camera)),
@@ -211,9 +215,11 @@ def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
     )
 
 
-def _read_urdf(path: Path, shown: str) -> tuple[Urdf, dict[str, Mesh]]:
+def _read_urdf(
+    path: Path, shown: str, places: Sequence[Place], arguments: Mapping[str, str]
+) -> tuple[Urdf, dict[str, Mesh]]:
     try:
-        return read_links(path, shown)
+        return read_links(path, shown, places, arguments)
     except DocumentError as error:
         raise RobotError(error.problems, error.file) from error
 
@@ -246,6 +252,19 @@ def _check_names(shown: str, located: Located, document: RobotDocument, urdf: Ur
             problems.append(Problem(text, *located.place(("joints", i, "joint")), "BTR003"))
     if problems:
         raise RobotError(problems, shown)
+
+
+def _stiff_wheels(drive: Drive, urdf: Urdf, located: Located) -> list[Problem]:
+    """Returns a note for each wheel that its motor cannot turn."""
+    notes = []
+    for side in ("left", "right"):
+        for i, name in enumerate(getattr(drive, side)):
+            friction = urdf.joints[name].friction
+            if friction >= drive.wheel_torque:
+                torque = f"a motor with a wheel_torque of {drive.wheel_torque:g} Nm cannot turn it"
+                text = f"the friction of the joint {name!r} is {friction:g} Nm, so {torque}"
+                notes.append(Problem(text, *located.place(("drive", side, i)), "BTR005"))
+    return notes
 
 
 def _missing(

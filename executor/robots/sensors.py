@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Annotated, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, model_validator
+from pydantic import Field, StringConstraints, model_validator
+
+from executor.universes.strict import Strict
 
 TURN: Final = 2 * math.pi
 
@@ -15,12 +17,6 @@ Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 Part = Annotated[float, Field(ge=0, le=1)]
 Rate = Annotated[float, Field(gt=0, le=60, allow_inf_nan=False)]
-
-
-class Strict(BaseModel):
-    """Base class of document parts that refuse unknown keys."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Lidar(Strict):

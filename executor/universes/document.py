@@ -1,11 +1,16 @@
-"""Reads YAML documents with the line of every value; aliases, tags and huge documents are refused."""
+"""Reads YAML documents with the line of every value; tags and huge documents are refused."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import yaml
+
+from translator.yaml_core import CoreLoader, core_value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 MAX_BYTES: Final = 2_000_000
 MAX_NODES: Final = 100_000
@@ -55,8 +60,26 @@ class Located:
         return self.places.get(path, (1, 1))
 
 
-def read_yaml(text: str, file: str = "") -> Located:
-    """Reads one YAML document.
+def text_of(raw: bytes, file: str = "") -> str:
+    """Returns the text of a document.
+
+    Raises:
+        DocumentError: it is not UTF-8.
+    """
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw[: error.start].count(b"\n") + 1
+        raise DocumentError([Problem("the document is not UTF-8", line)], file) from error
+
+
+def read_yaml(text: str, file: str = "", *, as_ros: bool = False) -> Located:
+    """Reads one YAML document, by the core schema of YAML 1.2.
+
+    Args:
+        text: the document.
+        file: its name in errors.
+        as_ros: whether it is a file of ROS, which reads YAML 1.1.
 
     Raises:
         DocumentError: the text is not YAML, or uses a feature that is refused.
@@ -65,7 +88,7 @@ def read_yaml(text: str, file: str = "") -> Located:
         raise DocumentError([Problem(f"the document is larger than {MAX_BYTES} bytes", code="BTU002")], file)
     try:
         _measure(text, file)
-        root = yaml.compose(text, Loader=yaml.CSafeLoader)
+        root = yaml.compose(text, Loader=yaml.CSafeLoader if as_ros else CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
@@ -74,7 +97,7 @@ def read_yaml(text: str, file: str = "") -> Located:
         raise DocumentError([Problem(str(error).splitlines()[0])], file) from error
     if root is None:
         raise DocumentError([Problem("the document is empty")], file)
-    reader = _Reader(file)
+    reader = _Reader(file, as_ros=as_ros)
     return Located(reader.read(root, ()), reader.places)
 
 
@@ -94,10 +117,10 @@ def _measure(text: str, file: str) -> None:
 
 
 class _Reader:
-    def __init__(self, file: str) -> None:
+    def __init__(self, file: str, *, as_ros: bool) -> None:
         self.places: dict[Path, tuple[int, int]] = {}
         self._file = file
-        self._constructor = yaml.SafeLoader("")
+        self._value: Callable[[Any], Any] = yaml.SafeLoader("").construct_object if as_ros else core_value
 
     def read(self, node: yaml.Node, path: Path) -> Any:
         self._guard(node, path)
@@ -120,8 +143,8 @@ class _Reader:
 
     def _scalar(self, node: yaml.Node) -> Any:
         try:
-            return self._constructor.construct_object(node)
-        except (yaml.YAMLError, ValueError) as error:
+            return self._value(node)
+        except (yaml.YAMLError, ValueError, KeyError, AttributeError) as error:  # the last two of YAML 1.1
             raise self._error(node, f"this value cannot be read: {str(error).splitlines()[0]}") from error
 
     def _guard(self, node: yaml.Node, path: Path) -> None:

@@ -10,12 +10,21 @@ from pydantic import BaseModel, ValidationError
 
 from executor.universes.document import DocumentError, Located, Problem, read_yaml
 from executor.universes.model import Universe
+from tree_gardener.intended_values import Wanted, sentence
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
 _FOLDER: Final = Path(__file__).parent
 BUILTIN_IDS: Final = tuple(sorted(path.stem for path in _FOLDER.glob("*.yaml")))
+
+_WANTED: Final[dict[str, Wanted]] = {
+    "bool_type": "boolean",
+    "float_type": "number",
+    "int_type": "integer",
+    "int_from_float": "integer",
+    "string_type": "text",
+}
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -79,6 +88,8 @@ def _problem(detail: ErrorDetails, document: Located, model: type[BaseModel]) ->
     line, column = document.place(path)
     where = ".".join(str(part) for part in path)
     message = detail["msg"].removeprefix("Value error, ")
+    if detail["type"] in _WANTED:
+        message = sentence(detail["input"], _WANTED[detail["type"]])
     if detail["type"] == "extra_forbidden":
         return Problem(f"{where} is not known", line, column, "BTU003", _near_hint(str(path[-1]), model))
     if detail["type"] == "missing":

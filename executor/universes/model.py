@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, Final, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
+from pydantic import Field, StringConstraints, field_validator, model_validator
+
+from executor.universes.strict import Strict
 
 Shape = Literal["box", "cylinder", "sphere", "plane", "mesh", "urdf", "sdf"]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
@@ -24,7 +26,7 @@ SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "mesh": ("scale x", "scale y", "scale z"),
 }
 FILES: Final[dict[str, tuple[str, ...]]] = {
-    "mesh": (".stl", ".obj", ".dae", ".ply", ".glb"),
+    "mesh": (".stl", ".obj", ".dae", ".ply", ".glb", ".gltf"),
     "urdf": (".urdf", ".xacro"),
     "sdf": (".sdf",),
 }
@@ -39,11 +41,7 @@ _RANDOM_KEY: Final = re.compile(
 )
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class _Painted(_Strict):
+class _Painted(Strict):
     """An object with a colour, and optionally a repeated texture.
 
     `texture` is a built-in texture (`TEXTURES`), or a PNG or JPEG file of the project; `tile` is the width
@@ -168,8 +166,11 @@ class Model(_Painted):
         return self
 
 
-class Actor(_Strict):
-    """A person who walks along `path`, unaffected by collisions; robots can bump into them."""
+class Actor(Strict):
+    """A person who walks along `path`, unaffected by collisions; robots can bump into them.
+
+    One who `yields` stops before a robot in the way, and walks on when it has gone.
+    """
 
     id: Name
     model: Literal["person"] = "person"
@@ -178,9 +179,10 @@ class Actor(_Strict):
     speed: float = Field(default=0.5, ge=0, le=5)
     loop: bool = True
     start_m: float = Field(default=0.0, ge=0, le=1e4)
+    yields: bool = False
 
 
-class RobotPlace(_Strict):
+class RobotPlace(Strict):
     """A robot and its initial pose; `topics` renames the topics of its sensors.
 
     With `ground_truth` the robot publishes its true pose on `/ground_truth/odom`.
@@ -195,7 +197,7 @@ class RobotPlace(_Strict):
     ground_truth: bool = False
 
 
-class Light(_Strict):
+class Light(Strict):
     """Sunlight, with the direction of its rays."""
 
     direction: tuple[Finite, Finite, Finite] = (0.3, 0.4, -0.8)
@@ -209,7 +211,7 @@ class Light(_Strict):
         return value
 
 
-class Area(_Strict):
+class Area(Strict):
     """A named region of the floor: a `box` [x min, y min, x max, y max], or a `polygon` of corners, in m."""
 
     box: tuple[Finite, Finite, Finite, Finite] | None = None
@@ -241,14 +243,14 @@ class Area(_Strict):
         return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs) / 2
 
 
-class View(_Strict):
+class View(Strict):
     """Initial view of the world: eye and target in m."""
 
     eye: Point = (-4.5, -5.0, 4.5)
     target: Point = (0.0, 0.0, 0.2)
 
 
-class Universe(_Strict):
+class Universe(Strict):
     """A universe: ground, ceiling, models, people, robots, light, and named areas of the floor."""
 
     format: Literal["bt-studio/universe"]

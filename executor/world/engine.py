@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
 
 
 @contextmanager
@@ -51,6 +52,25 @@ class Bullet:
             value = functools.partial(value, physicsClientId=self._id)
         self.__dict__[name] = value  # cached, since every step uses these functions
         return value
+
+    def load_urdf(
+        self, path: Path, pose: Sequence[float], *, is_fixed: bool = False, is_one_body: bool = False
+    ) -> int:
+        """Loads a file with the inertias that it states, and with round cylinders.
+
+        One that stands fast and is one body costs a step less than one that could have joints.
+        Bullet makes a polygon of a cylinder otherwise, on whose edges a wheel drives 2.8 % too far.
+        """
+        flags = pybullet.URDF_USE_INERTIA_FROM_FILE | pybullet.URDF_USE_IMPLICIT_CYLINDER
+        uid: int = self.loadURDF(
+            str(path),
+            pose[:3],
+            pose[3:],
+            useFixedBase=is_fixed,
+            useMaximalCoordinates=is_fixed and is_one_body,
+            flags=flags,
+        )
+        return uid
 
     def close(self) -> None:
         """Ends the server. May be called twice."""

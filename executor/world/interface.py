@@ -65,7 +65,11 @@ class Robot(Protocol):
 
     @property
     def collisions(self) -> int:
-        """Number of collisions since the start."""
+        """Number of collisions that the robot caused since the start."""
+
+    @property
+    def hits(self) -> int:
+        """Number of times that something that moves ran into the robot, which did not drive towards it."""
 
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
         """Sets the target twist in m/s and rad/s; returns False if it is not finite.

@@ -11,12 +11,19 @@ from typing import TYPE_CHECKING, Final
 from executor.world.geometry.transforms import wrap
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
 STRIDE_M: Final = 1.3
 LARGEST_SWING: Final = 0.5  # rad, at full pace
 FULL_PACE: Final = 1.2  # m/s
 TURN_RATE: Final = 3.0  # rad/s
+AHEAD_M: Final = (0.1, 0.2, 0.3)
+"""How far along the path one who yields looks."""
+ROOM_M: Final = 0.3
+"""The least distance of a person's middle from a robot's circle, for one who yields."""
+
+Circle = tuple[float, float, float]
+"""x, y and radius in m."""
 
 
 class Path:
@@ -71,8 +78,17 @@ class Walker:
         self._speed = speed
         self.gait = self._gait(start_m, path.at(start_m)[2])
 
-    def advance(self, dt_s: float) -> Gait:
-        """Walks for `dt_s`, and returns the new pose."""
+    def is_in_the_way(self, circle: Circle) -> bool:
+        """Returns whether the next steps lead into a circle, or nearer to it than one wants to be."""
+        *middle, radius = circle
+        now = math.dist((self.gait.x, self.gait.y), middle)
+        ahead = (math.dist(self._path.at(self.gait.distance_m + m)[:2], middle) for m in AHEAD_M)
+        return any(distance < min(now, radius + ROOM_M) for distance in ahead)
+
+    def advance(self, dt_s: float, yield_to: Iterable[Circle] = ()) -> Gait:
+        """Walks for `dt_s`, or waits while a circle is in the way; returns the new pose."""
+        if any(self.is_in_the_way(circle) for circle in yield_to):
+            return self.gait
         distance = self.gait.distance_m + self._speed * dt_s
         wanted = wrap(self._path.at(distance)[2] - self.gait.yaw)
         limit = TURN_RATE * dt_s

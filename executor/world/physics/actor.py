@@ -12,18 +12,24 @@ from executor.world.physics.bodies import capsule, rgba
 from executor.world.physics.placement import put
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from executor.universes.model import Actor
     from executor.world.engine import Bullet
     from executor.world.geometry.objects import SceneObjects, Where
+    from executor.world.geometry.walk import Circle
 
 
 class BulletActor:
-    """A person who walks and is not affected by collisions."""
+    """A person who walks and is not affected by collisions.
+
+    Attributes:
+        yields: whether the person waits for a robot in the way.
+    """
 
     def __init__(self, bullet: Bullet, actor: Actor) -> None:
         self.id = actor.id
+        self.yields = actor.yields
         self._bullet = bullet
         self._walker = Walker(Path(actor.path, loop=actor.loop), actor.speed, actor.start_m)
         self._parts = person_parts(rgba(actor.color))
@@ -49,9 +55,9 @@ class BulletActor:
         """Position of the actor in m."""
         return self._walker.gait.x, self._walker.gait.y
 
-    def advance(self, dt_s: float) -> None:
-        """Walks for `dt_s`."""
-        self._walker.advance(dt_s)
+    def advance(self, dt_s: float, robots: Iterable[Circle] = ()) -> None:
+        """Walks for `dt_s`; one who yields waits for robots, given by their circles."""
+        self._walker.advance(dt_s, robots if self.yields else ())
         self._carry()
 
     def save(self) -> list[float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from executor.robots.links import read_links
 from executor.robots.prepare import physical_urdf
@@ -11,17 +11,19 @@ from executor.universes.document import DocumentError, Problem
 from executor.world.geometry.kinematics import add_links, link_pose
 from executor.world.geometry.transforms import Pose, compose, from_xyz_rpy, inverse
 from executor.world.physics.placement import put_at_rest
+from tree_gardener.packages import Place
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
     from executor.messages import Mesh
-    from executor.robots.urdf import Urdf
+    from executor.robots.urdf import Mimic, Urdf
     from executor.universes.model import Model
     from executor.world.engine import Bullet
     from executor.world.geometry.objects import Kind, SceneObjects, Where
 
+GEAR_FORCE: Final = 1000.0
 Links = tuple["Urdf", dict[str, "Mesh"]]
 
 
@@ -38,7 +40,8 @@ def read_assembly(model: Model, assets: Path | None) -> Links:
     if not path.resolve().is_relative_to(assets.resolve()):
         problem = Problem(f"the file of {model.id!r} lies outside of the project", code="BTR002")
         raise DocumentError([problem], model.file)
-    return read_links(path, model.file)
+    places = [Place(f"the folder of {model.file}", path.parent), Place("the project", assets)]
+    return read_links(path, model.file, places)
 
 
 class Assembly:
@@ -50,15 +53,11 @@ class Assembly:
         self._urdf, meshes = links
         pose = from_xyz_rpy(model.pose)
         with physical_urdf(self._urdf.text, meshes) as path:
-            self.uid: int = bullet.loadURDF(
-                str(path),
-                pose[:3],
-                pose[3:],
-                useFixedBase=model.mass == 0,
-                flags=bullet.URDF_USE_INERTIA_FROM_FILE,
-            )
-        info = bullet.getDynamicsInfo(self.uid, -1)
-        self._inertial: Pose = (*info[3], *info[4])
+            is_one_body = len(self._urdf.links) == 1
+            self.uid = bullet.load_urdf(path, pose, is_fixed=model.mass == 0, is_one_body=is_one_body)
+        # Bullet's own answer about the frame of inertia is undefined for a body without joints.
+        position, orientation = bullet.getBasePositionAndOrientation(self.uid)
+        self._inertial: Pose = compose(inverse(pose), (*position, *orientation))
         self._joints = self._free_joints()
         self._ids: dict[str, int] = {}
         self._set_up()
@@ -82,8 +81,6 @@ class Assembly:
         put_at_rest(self._bullet, self.uid, compose(pose, self._inertial))
         for object_id, link in self._where()():
             objects.place(object_id, link)
-
-    # --- inside ---
 
     def _where(self) -> Where:
         position, orientation = self._bullet.getBasePositionAndOrientation(self.uid)
@@ -121,3 +118,23 @@ class Assembly:
             # friction.
             friction = bullet.getJointInfo(self.uid, joint)[7]
             bullet.setJointMotorControl2(self.uid, joint, bullet.VELOCITY_CONTROL, force=friction)
+        for name, joint in self._joints.items():
+            self._follow(joint, self._urdf.joints[name].mimic)
+
+    def _follow(self, joint: int, mimic: Mimic | None) -> None:
+        """Couples a joint with `<mimic>` to the other one, as by a gear."""
+        leader = None if mimic is None else self._joints.get(mimic.joint)
+        if mimic is None or leader is None or mimic.multiplier == 0:
+            return
+        bullet, at = self._bullet, [0.0, 0.0, 0.0]
+        gear = bullet.createConstraint(
+            self.uid, leader, self.uid, joint, bullet.JOINT_GEAR, [0.0, 0.0, 1.0], at, at
+        )
+        # Bullet holds leader + gearRatio · follower at relativePositionTarget.
+        bullet.changeConstraint(
+            gear,
+            gearRatio=-1.0 / mimic.multiplier,
+            relativePositionTarget=-mimic.offset / mimic.multiplier,
+            erp=0.2,
+            maxForce=GEAR_FORCE,
+        )

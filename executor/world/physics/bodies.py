@@ -6,19 +6,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from executor.messages import Shape
-from executor.world.geometry.mesh import MeshError, load_mesh
+from executor.world.geometry.mesh import ColoredMesh, MeshError, load_colored
 from executor.world.geometry.transforms import IDENTITY, Pose, from_xyz_rpy
 from executor.world.interface import WorldError
 from executor.world.physics.paint import texture_key
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from executor.messages import Mesh
     from executor.universes.model import Model
     from executor.world.engine import Bullet
+    from executor.world.geometry.mesh_colors import Rgba
 
 FINITE_PLANE_THICKNESS = 0.02
 
@@ -46,8 +49,8 @@ def make_ground(bullet: Bullet, friction: float) -> int:
     return ground
 
 
-def model_mesh(model: Model, assets: Path | None) -> Mesh:
-    """Reads the mesh of a model from the project's files.
+def model_mesh(model: Model, assets: Path | None) -> ColoredMesh:
+    """Reads the mesh of a model from the project's files, with its colours.
 
     Raises:
         WorldError: the mesh is missing, or cannot be used.
@@ -58,7 +61,8 @@ def model_mesh(model: Model, assets: Path | None) -> Mesh:
         path = assets / model.file
         if not path.resolve().is_relative_to(assets.resolve()):
             raise MeshError("it lies outside of the project")
-        return load_mesh(path)
+        root = assets.resolve()
+        return load_colored(path, lambda found: found.resolve().is_relative_to(root))
     except MeshError as error:
         raise WorldError(f"the mesh {model.file!r} of {model.id!r} cannot be used: {error}") from error
 
@@ -83,9 +87,14 @@ def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
     return Body(uid, is_dynamic=model.mass > 0)
 
 
-def scene_shape(model: Model) -> Shape:
-    """Returns the visual shape of a model of one shape."""
-    return Shape(
+def scene_shapes(model: Model, parts: Sequence[tuple[Rgba | None, str]] = ()) -> list[Shape]:
+    """Returns the visual shapes of a model of one shape.
+
+    Args:
+        model: the model.
+        parts: the meshes of the single colours of its file, which are shown if the model has none of its own.
+    """
+    shape = Shape(
         shape=model.shape,  # type: ignore[arg-type]  # assemblies are not asked
         size=list(model.size or (1.0, 1.0, 1.0)),
         pose=list(IDENTITY),
@@ -93,6 +102,9 @@ def scene_shape(model: Model) -> Shape:
         mesh=model.file,
         texture=texture_key(model),
     )
+    if not parts or shape.texture or model.color != type(model).model_fields["color"].default:
+        return [shape]
+    return [replace(shape, mesh=mesh, color=list(color or shape.color)) for color, mesh in parts]
 
 
 def capsule(bullet: Bullet, radius: float, length: float, at: Pose) -> int:

@@ -15,7 +15,7 @@ from executor.world.interface import WorldError
 from executor.world.physics import ceiling
 from executor.world.physics.actor import BulletActor
 from executor.world.physics.assembly import Assembly, Links, read_assembly
-from executor.world.physics.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
+from executor.world.physics.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shapes
 from executor.world.physics.ceiling import ceiling_of, upper_part
 from executor.world.physics.dump import (
     DUMP_VERSION,
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.universes.model import Model, Universe
+    from executor.world.geometry.mesh_colors import Rgba
     from executor.world.physics.collision import Collision
 
 STEP_HZ: Final = 240
@@ -69,6 +70,7 @@ class _Content:
     robots: list[BulletRobot] = field(default_factory=list)
     actors: list[BulletActor] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
+    movers: set[int] = field(default_factory=set)
 
 
 class BulletWorld:
@@ -110,7 +112,7 @@ class BulletWorld:
         self._assemblies = {
             model.file: read_assembly(model, assets) for model in self._universe.models if model.is_assembly
         }
-        self._meshes = _meshes(self._configs, self._assemblies, self._universe, assets)
+        self._meshes, self._parts = _meshes(self._configs, self._assemblies, self._universe, assets)
         self._textures = textures_of(self._universe, assets)
         self._bullet = Bullet()
         self._steps = 0
@@ -181,6 +183,7 @@ class BulletWorld:
     def step(self, count: int = 1) -> None:
         """Simulates `count` steps of 1/240 s."""
         bullet, robots = self._bullet, self._content.robots
+        names, movers = self._content.names, self._content.movers
         for _ in range(count):
             if self._steps % CONTROL_EVERY == 0:
                 self._control()
@@ -188,8 +191,7 @@ class BulletWorld:
             self._steps += 1
             now_s = self.time_s
             for robot in robots:
-                collision = robot.observe_contact(now_s, self._obstacle_name)
-                if collision is not None:
+                for collision in robot.observe_contact(now_s, names, movers):
                     self._collisions.append((robot.id, collision))
                     if self.on_collision is not None:
                         self.on_collision(robot.id, collision)
@@ -314,8 +316,6 @@ class BulletWorld:
         """Frees the physics server."""
         self._bullet.close()
 
-    # --- inside ---
-
     def _restore_rest(self, steps: int, robots: Sequence[Any], actors: Sequence[Any]) -> None:
         """Restores the state that the physics server does not hold."""
         self._steps = steps
@@ -329,17 +329,12 @@ class BulletWorld:
 
     def _control(self) -> None:
         now_s, dt_s = self.time_s, CONTROL_EVERY / STEP_HZ
-        for actor in self._content.actors:
-            actor.advance(dt_s)
+        actors = self._content.actors
+        robots = [robot.footprint for robot in self.robots] if any(actor.yields for actor in actors) else []
+        for actor in actors:
+            actor.advance(dt_s, robots)
         for robot in self._content.robots:
             robot.control(now_s, dt_s)
-
-    def _obstacle_name(self, uid: int) -> str | None:
-        """Returns the name of a body that a robot touches.
-
-        None for the ground, which does not count as a collision.
-        """
-        return self._content.names.get(uid)
 
     def _inertial_of(self, uid: int) -> Pose:
         info = self._bullet.getDynamicsInfo(uid, -1)
@@ -370,11 +365,10 @@ class BulletWorld:
         ]
         content.names.update({uid: actor.id for actor in content.actors for uid in actor.uids})
         content.names.update({robot.uid: robot.id for robot in content.robots})
-        for uid in [
-            *(uid for actor in content.actors for uid in actor.uids),
-            *(r.uid for r in content.robots),
-        ]:
+        walking = [*(uid for actor in content.actors for uid in actor.uids), *(r.uid for r in content.robots)]
+        for uid in walking:
             self._rays.add_body(uid)
+        content.movers.update(walking)
         self._scene = self._make_scene()
 
     def _set_up_physics(self) -> None:
@@ -393,12 +387,14 @@ class BulletWorld:
         self._content.bodies[model.id] = body
         self._content.names[body.uid] = model.id
         kind: Kind = "dynamic" if body.is_dynamic else "static"
-        shapes = [scene_shape(model), *upper_part(model, self._universe)]
+        parts = self._parts.get(model.file, ())
+        shapes = [*scene_shapes(model, parts), *upper_part(model, self._universe)]
         object_id = self._objects.add(model.id, "", kind, shapes, from_xyz_rpy(model.pose))
         self._content.objects[model.id] = object_id
         if model.solid:
             self._show_to_rays(model, body)
         if body.is_dynamic:
+            self._content.movers.add(body.uid)
             self._objects.add_mover(lambda: self._where(object_id, body.uid))
 
     def _show_to_rays(self, model: Model, body: Body) -> None:
@@ -414,6 +410,8 @@ class BulletWorld:
         made.add_to_scene(self._objects)
         self._content.assemblies[model.id] = made
         self._content.names[made.uid] = model.id
+        if made.is_dynamic:
+            self._content.movers.add(made.uid)
         self._rays.add_body(made.uid)
 
     def _where(self, object_id: int, uid: int) -> Where:
@@ -427,11 +425,12 @@ class BulletWorld:
         for robot in self._content.robots:
             robot.add_to_scene(self._objects, sensors)
         universe = self._universe
+        shown = {shape.mesh for each in self._objects.objects for shape in each.shapes}
         return Scene(
             name=universe.name,
             t=0.0,
             objects=self._objects.objects,
-            meshes=self._meshes,
+            meshes={name: mesh for name, mesh in self._meshes.items() if name in shown},
             lights=[Light(list(light.direction), light.intensity) for light in universe.lights],
             ground_color=rgba(universe.ground.color),
             sensors=sensors,
@@ -442,12 +441,18 @@ class BulletWorld:
 
 def _meshes(
     configs: list[RobotConfig], assemblies: dict[str, Links], universe: Universe, assets: Path | None
-) -> dict[str, Mesh]:
-    """Returns the meshes of robots and models by their names in the scene."""
+) -> tuple[dict[str, Mesh], dict[str, list[tuple[Rgba | None, str]]]]:
+    """Returns the meshes by their names in the scene, and the colours of models' meshes with theirs."""
     found = {mesh_key(config.id, name): mesh for config in configs for name, mesh in config.meshes.items()}
     for file, (_, meshes) in assemblies.items():
         found |= {mesh_key(file, name): mesh for name, mesh in meshes.items()}
+    parts: dict[str, list[tuple[Rgba | None, str]]] = {}
     for model in universe.models:
-        if model.shape == "mesh" and model.file not in found:
-            found[model.file] = model_mesh(model, assets)
-    return found
+        if model.shape != "mesh" or model.file in found:
+            continue
+        read = model_mesh(model, assets)
+        found[model.file] = read.whole
+        for number, (color, mesh) in enumerate(read.parts):
+            found[f"{model.file}#{number}"] = mesh
+            parts.setdefault(model.file, []).append((color, f"{model.file}#{number}"))
+    return found, parts

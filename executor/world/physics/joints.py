@@ -15,7 +15,41 @@ GAIN: Final = 0.3
 """Share of a position error that a motor corrects in one physics step."""
 
 
-class JointMotors:
+class RobotJoints:
+    """Some joints of a robot.
+
+    Args:
+        bullet: the physics server.
+        uid: the id of the robot in the physics server.
+        config: the configuration of the robot.
+        indices: the indices of these joints in the physics server, by name.
+    """
+
+    def __init__(self, bullet: Bullet, uid: int, config: RobotConfig, indices: Mapping[str, int]) -> None:
+        self._bullet = bullet
+        self._uid = uid
+        self._joints = config.urdf.joints
+        self._indices = indices
+
+    def __bool__(self) -> bool:
+        return bool(self._indices)
+
+    def states(self) -> dict[str, tuple[float, float]]:
+        """Returns the position and the rate of each joint."""
+        return self._states(self._indices)
+
+    def _states(self, indices: Mapping[str, int]) -> dict[str, tuple[float, float]]:
+        if not indices:
+            return {}
+        states = self._bullet.getJointStates(self._uid, list(indices.values()))
+        return {name: (state[0], state[1]) for name, state in zip(indices, states, strict=True)}
+
+    def _within(self, joint: str, position: float) -> float:
+        limits = self._joints[joint].limits
+        return position if limits is None else max(limits[0], min(limits[1], position))
+
+
+class JointMotors(RobotJoints):
     """Moves joints to their targets within their rate limits.
 
     Args:
@@ -26,17 +60,11 @@ class JointMotors:
     """
 
     def __init__(self, bullet: Bullet, uid: int, config: RobotConfig, indices: Mapping[str, int]) -> None:
-        self._bullet = bullet
-        self._uid = uid
         self._drives = {drive.joint: drive for drive in config.joints}
-        self._indices = {name: indices[name] for name in self._drives}
-        self._limits = {name: config.urdf.joints[name].limits for name in self._drives}
+        super().__init__(bullet, uid, config, {name: indices[name] for name in self._drives})
         self._wanted = {name: self._within(name, drive.start) for name, drive in self._drives.items()}
         self._held: dict[str, float] = {}
         self.control()
-
-    def __bool__(self) -> bool:
-        return bool(self._drives)
 
     def command(self, joint: str, position: float) -> bool:
         """Sets the target of a joint in rad or m, within its limits; returns False if it is not finite."""
@@ -50,13 +78,6 @@ class JointMotors:
         for name, wanted in self._wanted.items():
             if self._held.get(name) != wanted:
                 self._hold(self._drives[name], wanted)
-
-    def states(self) -> dict[str, tuple[float, float]]:
-        """Returns the position and the rate of each joint."""
-        if not self._indices:
-            return {}
-        states = self._bullet.getJointStates(self._uid, list(self._indices.values()))
-        return {name: (state[0], state[1]) for name, state in zip(self._indices, states, strict=True)}
 
     def save(self) -> dict[str, dict[str, float]]:
         """Returns the state that the physics server does not save itself, as plain data."""
@@ -79,7 +100,3 @@ class JointMotors:
             maxVelocity=drive.max_rate,
             force=drive.torque,
         )
-
-    def _within(self, joint: str, position: float) -> float:
-        limits = self._limits[joint]
-        return position if limits is None else max(limits[0], min(limits[1], position))

@@ -10,6 +10,7 @@ import numpy as np
 
 from executor.messages import Texture
 from executor.universes.model import TEXTURES
+from executor.world.geometry.pictures import MAX_PIXELS, PictureError, image_size
 from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
@@ -26,14 +27,8 @@ if TYPE_CHECKING:
 
 SIZE: Final = 256
 MAX_BYTES: Final = 10_000_000
-MAX_PIXELS: Final = 16_000_000
 LARGEST_SIDE: Final = 1024
 QUALITY: Final = 82
-_MARKERS_WITHOUT_SIZE: Final = frozenset({0xC4, 0xC8, 0xCC})
-
-
-class PaintError(Exception):
-    """A picture cannot be used; the text is the reason."""
 
 
 def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
@@ -52,7 +47,7 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
             continue
         try:
             jpeg, tile = shipped(thing.texture) if thing.texture in TEXTURES else _own(thing.texture, assets)
-        except PaintError as error:
+        except PictureError as error:
             raise WorldError(f"the texture {thing.texture!r} of {name} cannot be used: {error}") from error
         found[key] = Texture(jpeg, list(thing.tile or tile))
     return found
@@ -64,54 +59,33 @@ def texture_key(thing: Painted) -> str:
     return f"{thing.texture}{tile}" if thing.texture else ""
 
 
-# --- image files ---
-
-
 def _own(name: str, assets: Path | None) -> tuple[bytes, tuple[float, float]]:
     if assets is None:
-        raise PaintError("there are no project files to take it from")
+        raise PictureError("there are no project files to take it from")
     path = assets / name
     if not path.resolve().is_relative_to(assets.resolve()):
-        raise PaintError("it lies outside of the project")
+        raise PictureError("it lies outside of the project")
     if not path.is_file():
-        raise PaintError("there is no such file")
+        raise PictureError("there is no such file")
     if path.stat().st_size > MAX_BYTES:
-        raise PaintError(f"it is larger than {MAX_BYTES // 1_000_000} MB")
+        raise PictureError(f"it is larger than {MAX_BYTES // 1_000_000} MB")
     data = path.read_bytes()
     width, height = image_size(data)
     if not 0 < width * height <= MAX_PIXELS:
-        raise PaintError(f"it has {width} by {height} pixels; {MAX_PIXELS // 1_000_000} million are the most")
+        raise PictureError(
+            f"it has {width} by {height} pixels; {MAX_PIXELS // 1_000_000} million are the most"
+        )
     picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
     if picture is None:
-        raise PaintError("it is damaged")
+        raise PictureError("it is damaged")
     shrink = LARGEST_SIDE / max(picture.shape[:2])
     if shrink < 1:
         picture = cv2.resize(picture, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
     return _jpeg(picture), (1.0, picture.shape[0] / picture.shape[1])
 
 
-def image_size(data: bytes) -> tuple[int, int]:
-    """Returns the width and height of a PNG or JPEG without decoding it.
-
-    Raises:
-        PaintError: the data are neither a PNG nor a JPEG.
-    """
-    if data.startswith(b"\x89PNG\r\n\x1a\n") and len(data) >= 24:
-        return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
-    at = 2
-    while data.startswith(b"\xff\xd8") and at + 9 < len(data) and data[at] == 0xFF:
-        marker = data[at + 1]
-        if 0xC0 <= marker <= 0xCF and marker not in _MARKERS_WITHOUT_SIZE:
-            return int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
-        at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
-    raise PaintError("the file is neither a PNG nor a JPEG")
-
-
 def _jpeg(bgr: NDArray[np.uint8]) -> bytes:
     return bytes(cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1])
-
-
-# --- ours ---
 
 
 @functools.cache

@@ -9,22 +9,24 @@ import numpy as np
 
 from executor.robots.prepare import physical_urdf
 from executor.world.geometry.kinematics import add_links, link_pose, sensor_placements
-from executor.world.geometry.transforms import Pose, Vector, compose, from_xyz_rpy, inverse, yaw_of
-from executor.world.physics.collision import Collision, CollisionCounter
+from executor.world.geometry.transforms import Pose, Vector, compose, from_xyz_rpy, inverse, rotation, yaw_of
+from executor.world.physics.collision import Collision, CollisionCounter, ContactCounter
 from executor.world.physics.drive import DifferentialDrive, DriveState, Odometry, drive_state
 from executor.world.physics.joints import JointMotors
+from executor.world.physics.undriven import UndrivenJoints
 from executor.world.sensing.lidar import LidarCaster
 from executor.world.sensing.noise import plain_generator, restore_generator
 from executor.world.sensing.proprioception import Proprioception
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Container, Iterator, Mapping, Sequence
 
     from executor.messages import SensorPlacement
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
     from executor.universes.model import RobotPlace
     from executor.world.engine import Bullet
     from executor.world.geometry.objects import SceneObjects, Where
+    from executor.world.geometry.walk import Circle
     from executor.world.interface import LidarReading
     from executor.world.sensing.battery import BatteryReading
     from executor.world.sensing.bumper import Zone
@@ -36,6 +38,7 @@ BLOCKED_NM: Final = 1000.0
 PUSH_HZ: Final = 240.0  # an impulse acts for one step
 ANY_LINK: Final = -2  # PyBullet's default
 MOST_QUESTIONS: Final = 2
+DRIVES_TOWARDS: Final = 0.05  # m/s; slower, a robot counts as standing
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
 FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are taken by Bullet and by the groups of models
 ALL_GROUPS: Final = 0x7FFF
@@ -63,23 +66,28 @@ class BulletRobot:
         start = from_xyz_rpy(place.pose)
         apart = {*config.wheels, *config.friction, *config.skid}
         with physical_urdf(config.urdf.text, config.meshes, apart) as path:
-            self.uid: int = bullet.loadURDF(
-                str(path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
-            )
+            self.uid = bullet.load_urdf(path, start)
         self._noise = np.random.default_rng([seed, index])
         self._drive = DifferentialDrive(config.drive, self._noise)
-        self._counter = CollisionCounter()
+        self._counter = ContactCounter()
         self._carriers: dict[str, tuple[str, Pose]] = {}
         self._proprioception = Proprioception(config, (seed, index), self._pose_of)
         self._joints, self._links = self._index_links()
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
+        self._wheel_torques = [
+            max(0.0, config.drive.wheel_torque - config.urdf.joints[name].friction)
+            for name in (*config.drive.left, *config.drive.right)
+        ]
         self._motors = JointMotors(bullet, self.uid, config, self._joints)
+        self._undriven = UndrivenJoints(bullet, self.uid, config, self._joints)
         self._wheel_links = {self._links[name] for name in config.wheels}
         self._bumping = self._bumping_links()
         self._inertial = self._inertial_inverse()
         self._applied: tuple[float, float] | None = None
         self._blocked_wheels: list[int] = []
         self._at = self.pose[:2]
+        self._reach_m = self._reach()
+        self._velocity: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
         mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
         self._lidars = {
@@ -88,8 +96,6 @@ class BulletRobot:
         }
         self._drive.observe(*self._wheel_angles(), 0.0)
 
-    # --- what a program may ask ---
-
     @property
     def odometry(self) -> Odometry:
         """Pose and twist of the robot as its wheels measure them."""
@@ -97,8 +103,18 @@ class BulletRobot:
 
     @property
     def collisions(self) -> int:
-        """Number of collisions since the start."""
-        return self._counter.count
+        """Number of collisions that the robot caused since the start."""
+        return self._counter.collisions.count
+
+    @property
+    def hits(self) -> int:
+        """Number of times that something that moves ran into the robot, which did not drive towards it."""
+        return self._counter.hits.count
+
+    @property
+    def footprint(self) -> Circle:
+        """The circle on the floor that the robot needs to turn on the spot."""
+        return (*self.pose[:2], self._reach_m)
 
     @property
     def base_pose(self) -> Pose:
@@ -143,11 +159,12 @@ class BulletRobot:
         return self._motors.command(joint, position)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Returns the position and the rate of each joint with a motor; the wheels come first."""
+        """Returns the position and the rate of each joint that can move; the wheels come first."""
         names = (*self.config.drive.left, *self.config.drive.right)
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
         wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
-        return wheels | self._motors.states() if self._motors else wheels
+        states = wheels | self._motors.states() if self._motors else wheels
+        return states | self._undriven.states() if self._undriven else states
 
     def wheel_power_w(self) -> float:
         """Returns the mechanical power of the wheels' motors, in W; braking counts as driving does."""
@@ -174,16 +191,16 @@ class BulletRobot:
         """Returns the pose of a camera in the world."""
         return self._pose_of(camera.link)
 
-    # --- what the world calls ---
-
     def control(self, now_s: float, dt_s: float) -> None:
         """Sets the wheels' motors; called at the start of a control period."""
         self._clock_s = now_s
+        self._velocity = self._bullet.getBaseVelocity(self.uid)
         rates = self._drive.wheel_rates(now_s, dt_s) if self._proprioception.has_power else (0.0, 0.0)
         if rates != self._applied:
             self._apply(rates)
         if self._motors and self._proprioception.has_power:
             self._motors.control()
+        self._undriven.control(dt_s)
 
     def measure(self, now_s: float, dt_s: float) -> None:
         """Reads the wheels and the inner sensors; called at the end of a control period."""
@@ -198,19 +215,34 @@ class BulletRobot:
             self.distance_m += moved
             self._at = (x, y)
 
-    def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
+    def observe_contact(
+        self, now_s: float, names: Mapping[int, str], movers: Container[int]
+    ) -> list[Collision]:
         """Reads the contacts of the robot; called once in each physics step.
 
-        Returns a collision when one starts, otherwise None.
+        Args:
+            now_s: the simulated time.
+            names: what counts as touched, by body; the ground does not.
+            movers: the bodies that can run into the robot.
+
+        Returns the collisions that start.
         """
         self._clock_s = now_s
-        touched = None
+        fixed = mover = None
+        drives_towards = False
         for contact in self._contacts():
-            body = name_of(contact[2])
-            if body is not None:
-                self._proprioception.touch(contact[5], now_s)
-                touched = touched or body
-        return None if touched is None else self._counter.observe(now_s, touched)
+            body = names.get(contact[2])
+            if body is None:
+                continue
+            self._proprioception.touch(contact[5], now_s)
+            if contact[2] in movers:
+                mover = mover or body
+                drives_towards = drives_towards or self._speed_towards(contact) > DRIVES_TOWARDS
+            else:
+                fixed = fixed or body
+        if fixed is mover is None:
+            return []
+        return self._counter.observe(now_s, fixed, mover, drives_towards=drives_towards)
 
     @property
     def has_drawn(self) -> bool:
@@ -267,7 +299,8 @@ class BulletRobot:
         """Returns the state that the physics server does not save itself, as plain data."""
         return {
             "drive": self._drive.state,
-            "collisions": [self._counter.count, self._counter.last_contact_s],
+            "collisions": self._counter.collisions.saved,
+            "hits": self._counter.hits.saved,
             "distance_m": self.distance_m,
             "at": self._at,
             "noise": plain_generator(self._noise),
@@ -279,7 +312,8 @@ class BulletRobot:
         """Restores a state that `save` returned."""
         self._clock_s = now_s
         self._drive.state = drive_state(saved["drive"])
-        self._counter = CollisionCounter(*saved["collisions"])
+        hits = saved.get("hits", ())  # recordings of older versions have none
+        self._counter = ContactCounter(CollisionCounter(*saved["collisions"]), CollisionCounter(*hits))
         self.distance_m, self._at = saved["distance_m"], (saved["at"][0], saved["at"][1])
         restore_generator(self._noise, saved["noise"])
         self._proprioception.restore(saved["senses"])
@@ -297,14 +331,24 @@ class BulletRobot:
         objects.add_mover(lambda: self._where(ids))
         sensors += sensor_placements(self.config, ids)
 
-    # --- inside ---
-
     def _contacts(self) -> Iterator[Sequence[Any]]:
         """Yields PyBullet's contact points, except those of wheels."""
         for link in self._bumping:
             for contact in self._bullet.getContactPoints(bodyA=self.uid, linkIndexA=link):
                 if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
                     yield contact
+
+    def _speed_towards(self, contact: Sequence[Any]) -> float:
+        """Returns the speed at which the robot's point drove towards the other body before they touched."""
+        linear, turn = (np.array(part) for part in self._velocity)
+        center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
+        arm = np.array(contact[5]) - center
+        return -float((linear + np.cross(turn, arm)) @ np.array(contact[7]))
+
+    def _reach(self) -> float:
+        """Returns the distance in m from the middle to the farthest corner of the bounding box."""
+        (x, y, *_), (low, high) = self.pose, self.bounds
+        return max(math.dist((x, y), (a, b)) for a in (low[0], high[0]) for b in (low[1], high[1]))
 
     def _where(self, ids: dict[str, int]) -> Where:
         base, positions = self.base_pose, self._positions()
@@ -351,7 +395,7 @@ class BulletRobot:
             self._wheel_joints,
             self._bullet.VELOCITY_CONTROL,
             targetVelocities=targets,
-            forces=[drive.wheel_torque] * len(targets),
+            forces=self._wheel_torques,
         )
         for wheel in self._blocked_wheels:
             self._bullet.setJointMotorControl2(
@@ -384,6 +428,17 @@ class BulletRobot:
         info = self._bullet.getDynamicsInfo(self.uid, -1)
         return inverse((*info[3], *info[4]))
 
+    def _sideways(self, link: str, index: int) -> list[float]:
+        """Returns the factors of a link's friction: `skid` along its wheel's axis, or else along y, 1 across.
+
+        Bullet's axes are those of the frame of the inertia, which may be turned in the link's.
+        """
+        joint = self.config.urdf.joint_above.get(link)
+        axis = joint.axis if joint is not None and joint.kind == "continuous" else (0.0, 1.0, 0.0)
+        frame = rotation(self._bullet.getDynamicsInfo(self.uid, index)[4])
+        along = int(np.abs(frame.T @ np.array(axis)).argmax())
+        return [self.config.skid[link] if i == along else 1.0 for i in range(3)]
+
     def _set_up_contact(self, group: int) -> None:
         for name, index in self._links.items():
             self._bullet.setCollisionFilterGroupMask(self.uid, index, group, ALL_GROUPS)
@@ -393,9 +448,7 @@ class BulletRobot:
                 rollingFriction=0.0, spinningFriction=0.0, restitution=0.0,
             )  # fmt: skip
             if name in self.config.skid:
-                self._bullet.changeDynamics(
-                    self.uid, index, anisotropicFriction=[1.0, self.config.skid[name], 1.0]
-                )
+                self._bullet.changeDynamics(self.uid, index, anisotropicFriction=self._sideways(name, index))
         self._bullet.changeDynamics(
             self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING
         )

@@ -102,6 +102,10 @@ class RayCaster:
         if not around:
             return np.zeros(len(shares), np.bool_)
         corners = np.array(around)
+        low, high = _reach(start, rays, MARGIN_M)
+        corners = corners[np.all((corners[:, 1] >= low) & (corners[:, 0] <= high), axis=1)]
+        if not len(corners):
+            return np.zeros(len(shares), np.bool_)
         middles, halves = corners.mean(axis=1), (corners[:, 1] - corners[:, 0]) / 2 + MARGIN_M
         everywhere = np.broadcast_to(rays, (len(corners), *rays.shape))
         near, far = _Boxes.crossings(start - middles, everywhere, halves)
@@ -126,7 +130,7 @@ class _Still(ABC):
 
         1 if it enters none.
         """
-        low, high = start + np.minimum(rays.min(axis=1), 0), start + np.maximum(rays.max(axis=1), 0)
+        low, high = _reach(start, rays)
         is_near = np.all(
             (self._centres + self._reaches >= low) & (self._centres - self._reaches <= high), axis=1
         )
@@ -186,6 +190,14 @@ def _between(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floa
         second = (halves - starts)[:, :, None] * inverse
     # A line within a plane gives 0 · ∞ (NaN), which is no limit.
     return np.fmin(first, second), np.fmax(first, second)
+
+
+def _reach(start: Floats, rays: Floats, margin_m: float = 0.0) -> tuple[Floats, Floats]:
+    """Returns the corners of the box that holds all rays."""
+    return (
+        start + np.minimum(rays.min(axis=1), 0) - margin_m,
+        start + np.maximum(rays.max(axis=1), 0) + margin_m,
+    )
 
 
 def _to_ground(start: Floats, rays: Floats) -> Floats:

@@ -34,6 +34,7 @@ class Part(Protocol):
 
 PERIOD_STEPS: Final = 4  # steps between polls of the world's topics: 60 Hz
 IDLE_CLOCK_S: Final = 0.05
+AWAITING_S: Final = 0.005  # between two looks whether an awaited publisher is there
 DRIVEN_S: Final = 0.6  # a paused world runs this long after a command by hand, to come to rest
 REPORT_S: Final = 1.0
 SLOW_CAMERAS: Final = (
@@ -145,7 +146,7 @@ class SimulationLoop:
 
     def run_due(self, now_s: float) -> None:
         """Runs everything that is due at this real time."""
-        stands_still = self._stands_still(now_s)
+        stands_still = self._stands_still(now_s) or self._node.awaits_publisher(now_s)
         if stands_still:
             self._pacer.pause()
             self._idle(now_s)
@@ -158,12 +159,12 @@ class SimulationLoop:
 
     def next_due_s(self, now_s: float) -> float:
         """Returns the seconds until `run_due` has something to do."""
+        if self._node.awaits_publisher(now_s):
+            return AWAITING_S
         if not self.is_paused or self._is_driven or now_s < self._driven_until_s:
             return self._pacer.next_due_s(now_s, PERIOD_STEPS - self._steps % PERIOD_STEPS)
         idle = self._clock_s + IDLE_CLOCK_S - now_s
         return max(0.0, min(idle, self.streams.next_due_s(now_s) or IDLE_CLOCK_S))
-
-    # --- inside ---
 
     def _stands_still(self, now_s: float) -> bool:
         if self._is_driven:
@@ -203,8 +204,7 @@ class SimulationLoop:
 
     def _tell_collisions(self) -> None:
         for robot, collision in self._world.take_collisions():
-            text = f"{robot} bumped into {collision.body}"
-            self._log("warning", text, collision.time_s)
+            self._log("warning", collision.told(robot), collision.time_s)
 
     def _report_due(self, now_s: float, *, is_running: bool) -> None:
         report = self._report
@@ -231,6 +231,7 @@ class SimulationLoop:
                 tick_ms=0.0,
                 tick_budget_ms=0.0,
                 collisions=robot.collisions if robot else 0,
+                hits=robot.hits if robot else 0,
                 distance_m=robot.distance_m if robot else 0.0,
                 pose=robot.pose if robot else (0.0, 0.0, 0.0),
             )

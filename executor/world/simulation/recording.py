@@ -153,8 +153,6 @@ class WorldRecorder:
         if self._graph_tap is not None:
             self._graph_tap.close()
 
-    # --- inside ---
-
     def _restate(self) -> None:
         now_s = self._dump_s = self._world.time_s
         scene = {"stamp": nanoseconds(now_s), "data": _encode(self._world.scene)}

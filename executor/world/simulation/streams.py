@@ -155,8 +155,6 @@ class Streams:
         if drawing_s:
             self._rests_until_s = now_s + drawing_s * (1 + REST_SHARE)
 
-    # --- inside ---
-
     def _send_one(self, subscription: Subscription) -> bool:
         if subscription.stream == "poses":
             return self._send_poses(subscription)

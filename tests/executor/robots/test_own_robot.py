@@ -131,12 +131,17 @@ def test_what_is_wrong_in_xacro_is_said_with_its_line(project: Path) -> None:
     ("old", "new", "message"),
     [
         ("meshes/body.obj", "meshes/ghost.obj", "there is no file ghost.obj"),
-        ("meshes/body.obj", "../../../../etc/passwd.obj", "lies outside the robot's folder"),
+        ("meshes/body.obj", "../../../../etc/passwd.obj", "lies outside of robots/cart and the project"),
         ("meshes/body.obj", "meshes/body.blend", "meshes of kind .blend are not read"),
     ],
 )
 def test_a_mesh_that_cannot_be_used_is_named(project: Path, old: str, new: str, message: str) -> None:
-    change(project / "robots" / "cart" / "cart.urdf.xacro", old, new)
+    file = project / "robots" / "cart" / "cart.urdf.xacro"
+    change(file, old, new)
+    urdf = load_robot("cart", project).urdf  # the mesh that is only seen is a box
+    assert [note.code for note in urdf.notes] == ["BTR004"]
+    assert message in urdf.notes[0].message
+    change(file, old, new)
     assert "BTR004" in complaint(project)
     assert message in complaint(project)
 

@@ -41,7 +41,7 @@ CART = """<robot name="cart">
     <collision><origin xyz="0 0 0.3"/><geometry><box size="0.05 0.1 0.6"/></geometry></collision>
   </link>
   <joint name="arm_joint" type="revolute"><parent link="mast"/><child link="arm"/>
-    <origin xyz="0.2 0 0.5"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"/></joint>
+    <origin xyz="0.2 0 0.5"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
   <link name="arm">
     <inertial><mass value="0.5"/><inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial>
     <collision><geometry><sphere radius="0.05"/></geometry></collision>

@@ -19,7 +19,7 @@ def test_values_know_their_places() -> None:
         ("", 1, "empty"),
         ("? [1, 2]\n: 3\n", 1, "key"),
         ("a: !!python/object/apply:os.system [echo]\n", 1, "tag"),
-        ("a: 2001-99-99\n", 1, "cannot be read"),
+        ("a: !!int ten\n", 1, "cannot be read"),
         ("a: \x07\n", 1, "characters are not allowed"),
     ],
 )
@@ -27,6 +27,12 @@ def test_bad_documents_are_refused_with_a_line(text: str, line: int, message: st
     with pytest.raises(DocumentError, match=message) as caught:
         read_yaml(text, "x.yaml")
     assert caught.value.problems[0].line == line
+
+
+@pytest.mark.parametrize("value", ["!!bool x", "!!timestamp x", "2024-02-30", "0x_"])
+def test_a_value_that_yaml_1_1_cannot_read_is_refused(value: str) -> None:
+    with pytest.raises(DocumentError, match=r"x\.yaml:2:4: BTU001 this value cannot be read"):
+        read_yaml(f"a: 1\nb: {value}\n", "x.yaml", as_ros=True)
 
 
 def test_aliases_cannot_blow_a_document_up() -> None:

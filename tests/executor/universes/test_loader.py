@@ -1,5 +1,6 @@
 import pytest
 
+from executor.ram.translate import WORLD_ALIASES
 from executor.universes import BUILTIN_IDS, UniverseError, load_builtin, parse_universe
 from executor.world.physics.bullet import BulletWorld
 
@@ -75,3 +76,8 @@ def test_all_problems_are_said_at_once() -> None:
         parse_universe("format: bt-studio/universe\nversion: 2\nmodels: [{id: 1}]\n")
     assert [problem.line for problem in caught.value.problems] == [1, 2, 3, 3]
     assert "universe.yaml:1:1: BTU003 name is missing" in str(caught.value)
+
+
+def test_people_wait_for_robots_in_the_worlds_that_stand_for_those_of_jderobot() -> None:
+    for universe_id in set(WORLD_ALIASES.values()):
+        assert all(actor.yields for actor in load_builtin(universe_id).actors), universe_id

@@ -1,8 +1,6 @@
 """The world process over its channel, as the manager drives it."""
 
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,9 +12,11 @@ from executor.messages import Poses, Scene, Sim
 from executor.ros.environment import ros_environment
 from executor.stream.pose_codec import POSE_BYTES, unpack
 from executor.supervision.channel import Channel, socket_pair
+from tests.domains import own_domain_id
+from tests.executor.forks import FORKS
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 223
+DOMAIN_ID = own_domain_id()
 decode = msgspec.msgpack.Decoder(Scene | Poses).decode
 
 
@@ -25,10 +25,10 @@ class Remote:
 
     def __init__(self) -> None:
         ours, theirs = socket_pair()
-        environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
-        command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
-        self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
-        theirs.close()
+        environment = {**os.environ, **ros_environment(DOMAIN_ID)}
+        with theirs:
+            files = (0, 1, 2, theirs.fileno())
+            self.process = FORKS.start("executor.world.process", ["--channel-fd", "3"], environment, *files)
         self.channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
 
     def tell(self, kind: str, **fields: Any) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from executor.world.geometry import mesh
-from executor.world.geometry.mesh import MeshError, load_mesh, write_obj
+from executor.world.geometry.mesh import MeshError, load_mesh, unique_rows, write_obj
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -27,6 +27,14 @@ def test_a_cube_has_sharp_edges_and_reads_back(tmp_path: Path) -> None:
     assert np.allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-4)
     write_obj(found, tmp_path / "again.obj")
     assert len(load_mesh(tmp_path / "again.obj").indices) == len(found.indices)
+
+
+def test_rows_are_found_as_numpy_finds_them() -> None:
+    rows = np.random.default_rng(1).integers(-2, 3, (500, 4)).astype(np.float64)
+    unique, place = unique_rows(rows)
+    expected, inverse = np.unique(rows, axis=0, return_inverse=True)
+    assert (unique == expected).all()
+    assert (place == inverse.ravel()).all()
 
 
 def test_what_cannot_be_used_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

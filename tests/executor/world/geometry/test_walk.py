@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from executor.world.geometry.walk import Gait, Path, Walker
+from executor.world.geometry.walk import AHEAD_M, ROOM_M, Gait, Path, Walker
 
 SQUARE = ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))
 
@@ -46,3 +46,14 @@ def test_legs_swing_while_walking() -> None:
     swings = [gait.swing for gait in gaits]
     assert max(swings) > 0.2
     assert min(swings) < -0.2
+
+
+def test_one_waits_before_what_is_in_the_way_but_walks_away_from_what_is_behind() -> None:
+    path = Path(((0.0, 0.0), (4.0, 0.0)), loop=False)
+    walker = Walker(path, 0.5)
+    ahead, behind = (2.0, 0.0, 0.2), (-0.3, 0.0, 0.2)
+    for _ in range(600):
+        walker.advance(1 / 60, [ahead, behind])
+    assert walker.gait.x == pytest.approx(2.0 - 0.2 - ROOM_M - AHEAD_M[-1], abs=0.02)
+    walker.advance(1 / 60, [behind])
+    assert walker.gait.x > 1.0

@@ -98,6 +98,28 @@ def test_a_door_swings_on_its_hinge_and_is_moved_back(project: Path) -> None:
     world.close()
 
 
+SHELF = """<robot name="shelf"><link name="l">
+<inertial><origin xyz="0.1 0 0.2" rpy="0.3 0 0"/><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+<visual><geometry><box size="1 1 0.5"/></geometry></visual>
+<collision><origin xyz="0 0 0.25"/><geometry><box size="1 1 0.5"/></geometry></collision></link></robot>"""
+
+
+def test_what_stands_fast_in_one_piece_is_touched_and_moved(project: Path) -> None:
+    (project / "assets" / "things" / "shelf.urdf").write_text(SHELF)
+    text = "  - {id: shelf, shape: urdf, file: assets/things/shelf.urdf, pose: [2, 0, 0, 0, 0, 0.5]}\n"
+    ball = "  - {id: ball, shape: sphere, size: [0.2], mass: 1, pose: [2, 0, 2, 0, 0, 0]}\n"
+    world = world_of(text + ball, project)
+    world.step(480)
+    assert where(world)["ball/"][2] == pytest.approx(0.7, abs=0.01)
+    assert where(world)["shelf/l"] == pytest.approx(from_xyz_rpy((2, 0, 0, 0, 0, 0.5)), abs=1e-6)
+    world.move_body("shelf", [5, 0, 0, 0, 0, 0])
+    assert where(world)["shelf/l"] == pytest.approx(from_xyz_rpy((5, 0, 0, 0, 0, 0)), abs=1e-6)
+    world.step(480)
+    assert where(world)["ball/"][2] == pytest.approx(0.2, abs=0.01)
+    world.close()
+
+
 def test_an_sdf_model_has_its_poses(project: Path, caplog: pytest.LogCaptureFixture) -> None:
     world = world_of(
         "  - {id: table, shape: sdf, file: assets/things/table.sdf, pose: [1, 0, 0, 0, 0, 0]}\n", project
@@ -115,6 +137,31 @@ def test_an_sdf_model_has_its_poses(project: Path, caplog: pytest.LogCaptureFixt
     assert "table.sdf:" in said
     for words in ("<sensor> of the link 'top'", "no joint holds the link 'lamp'", "<plugin> of the model"):
         assert words in said
+    world.close()
+
+
+PRESS = """<robot name="press"><link name="frame"/>
+{}
+<joint name="falls" type="prismatic"><parent link="frame"/><child link="weight"/><axis xyz="0 0 1"/>
+  <limit lower="-0.5" upper="0" effort="10" velocity="5"/></joint>
+<joint name="follows" type="prismatic"><parent link="frame"/><child link="slider"/><axis xyz="1 0 0"/>
+  <limit lower="-2" upper="2" effort="10" velocity="5"/>
+  <mimic joint="falls" multiplier="-0.5" offset="0.1"/></joint>
+</robot>"""
+PRESSED = """<link name="{}"><inertial><mass value="1"/>
+  <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+  <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>"""
+
+
+def test_a_joint_with_mimic_follows_the_other_one(project: Path) -> None:
+    press = PRESS.format(PRESSED.format("weight") + PRESSED.format("slider"))
+    (project / "assets/things/press.urdf").write_text(press)
+    text = "  - {id: press, shape: urdf, file: assets/things/press.urdf, pose: [0, 0, 2, 0, 0, 0]}\n"
+    world = world_of(text, project)
+    world.step(480)
+    places = where(world)
+    assert places["press/weight"][2] == pytest.approx(1.5, abs=0.01)  # it fell to its limit
+    assert places["press/slider"][0] == pytest.approx(0.35, abs=0.01)
     world.close()
 
 
@@ -148,13 +195,16 @@ A = "<link name='a'/>"
         ("broken.urdf", "<robot>\n<link name='a'>\n</robot>", "broken.urdf:3"),
         (
             "mesh.urdf",
-            "<robot><link name='a'><visual><geometry>\n"
-            "<mesh filename='no.stl'/></geometry></visual></link></robot>",
+            "<robot><link name='a'><collision><geometry>\n"
+            "<mesh filename='no.stl'/></geometry></collision></link></robot>",
             "mesh.urdf:2.*no file no.stl",
         ),
         (
             "mesh.sdf",
-            model(f"<link name='a'>{visual('<mesh><uri>model://m/no.stl</uri></mesh>')}</link>"),
+            model(
+                "<link name='a'><collision name='c'><geometry>",
+                "<mesh><uri>model://m/no.stl</uri></mesh></geometry></collision></link>",
+            ),
             "mesh.sdf:2.*no file no.stl",
         ),
         ("two.sdf", model(A, A), "two.sdf:2.*twice"),
@@ -210,3 +260,20 @@ def test_a_file_that_is_missing_or_elsewhere_is_refused(project: Path) -> None:
             world_of(f"  - {{id: thing, shape: urdf, file: {file}}}\n", project)
     with pytest.raises(DocumentError, match="needs the project's files"):
         BulletWorld(parse_universe(f"{HEAD}models: [{{id: a, shape: urdf, file: assets/a.urdf}}]\n"))
+
+
+def test_what_falls_on_a_joint_onto_a_standing_robot_hits_it(project: Path) -> None:
+    (project / "assets" / "things" / "lift.urdf").write_text(
+        """<robot name="lift"><link name="frame"/>
+<link name="weight"><inertial><mass value="0.2"/>
+  <inertia ixx="0.001" iyy="0.001" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+<joint name="falls" type="prismatic"><parent link="frame"/><child link="weight"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="0" effort="10" velocity="5"/></joint></robot>"""
+    )
+    text = HEAD.replace("robots: []", "robots:\n  - {id: robot, model: burger, pose: [0, 0, 0, 0, 0, 0]}")
+    lift = "  - {id: lift, shape: urdf, file: assets/things/lift.urdf, pose: [0, 0, 0.8, 0, 0, 0]}\n"
+    world = BulletWorld(parse_universe(f"{text}models:\n{lift}"), assets=project)
+    world.step(480)
+    robot = world.robots[0]
+    assert (robot.collisions, robot.hits) == (0, 1)

@@ -6,7 +6,7 @@ import pytest
 
 from executor.universes import parse_universe
 from executor.world.engine import Bullet
-from executor.world.physics.bodies import make_body, make_ground, rgba, scene_shape
+from executor.world.physics.bodies import make_body, make_ground, rgba, scene_shapes
 
 TEXT = """format: bt-studio/universe
 version: 1
@@ -22,7 +22,7 @@ def test_a_model_is_a_body_and_a_shape() -> None:
     make_ground(bullet, 0.8)
     box, ball = parse_universe(TEXT).models
     assert rgba("#ff0000")[:3] == pytest.approx([1, 0, 0])
-    assert scene_shape(box).shape == "box"
+    assert [shape.shape for shape in scene_shapes(box)] == ["box"]
     assert make_body(bullet, box) != make_body(bullet, ball)
     assert bullet.getNumBodies() == 3
     bullet.close()

@@ -239,3 +239,45 @@ def test_noise_follows_another_seed_from_a_moment_on_but_not_its_own(make_world:
     assert other[2] != plain[2]
     assert other[3] != plain[3]
     assert measured(6) == other
+
+
+WALK = "actors:\n  - {{id: walker, path: [[1.0, 0], [-3.0, 0]], speed: 0.5, loop: false, yields: {yields}}}\n"
+
+
+def test_a_person_who_runs_into_a_standing_robot_hits_it(make_world: "MakeWorld") -> None:
+    world = make_world(WALK.format(yields="false"))
+    heard: list[bool] = []
+    world.on_collision = lambda _, collision: heard.append(collision.is_hit)
+    drive(world, 0.0, 0.0, 3.0)
+    robot = world.robots[0]
+    assert (robot.collisions, robot.hits, heard) == (0, 1, [True])
+    assert robot.pose[0] < -0.1  # it was pushed
+    [(robot_id, collision)] = world.take_collisions()
+    assert collision.told(robot_id) == "robot was hit by walker"
+
+
+def test_a_robot_that_drives_into_a_person_is_not_hit(make_world: "MakeWorld") -> None:
+    world = make_world("actors:\n  - {id: walker, path: [[0.7, 0]], yields: true}\n")
+    drive(world, 0.4, 0.0, 3.0)
+    assert (world.robots[0].collisions, world.robots[0].hits) == (1, 0)
+
+
+def test_who_yields_waits_before_a_robot_and_walks_on_when_it_has_gone(make_world: "MakeWorld") -> None:
+    world = make_world(WALK.format(yields="true").replace("[1.0, 0]", "[2.0, 0]"))
+    drive(world, 0.0, 0.0, 5.0)
+    robot, walker = world.robots[0], world.actors[0]
+    waits = walker.position
+    assert 0.6 < waits[0] < 1.0
+    assert (robot.collisions, robot.hits) == (0, 0)
+    world.move_body("robot", (0, 3, 0, 0, 0, 0))
+    drive(world, 0.0, 0.0, 2.0)
+    assert walker.position[0] == pytest.approx(waits[0] - 1.0, abs=0.02)
+
+
+def test_hits_are_restored(make_world: "MakeWorld") -> None:
+    world = make_world(WALK.format(yields="false"))
+    drive(world, 0.0, 0.0, 3.0)
+    saved = world.save()
+    drive(world, 0.0, 1.0, 4.0)
+    world.restore(saved)
+    assert (world.robots[0].collisions, world.robots[0].hits) == (0, 1)

@@ -1,4 +1,4 @@
-from executor.world.physics.collision import EPISODE_GAP_S, Collision, CollisionCounter
+from executor.world.physics.collision import EPISODE_GAP_S, Collision, CollisionCounter, ContactCounter
 
 
 def test_a_long_scrape_is_one_collision() -> None:
@@ -27,3 +27,18 @@ def test_touching_nothing_is_no_collision() -> None:
     counter = CollisionCounter()
     assert counter.observe(1.0, None) is None
     assert counter.count == 0
+
+
+def test_who_caused_a_contact_is_decided_when_it_begins() -> None:
+    counter = ContactCounter()
+    assert counter.observe(1.0, None, "ada", drives_towards=False) == [Collision(1.0, "ada", is_hit=True)]
+    assert counter.observe(1.1, None, "ada", drives_towards=True) == []
+    assert counter.observe(3.0, None, "ada", drives_towards=True) == [Collision(3.0, "ada")]
+    assert counter.observe(3.1, None, "ada", drives_towards=False) == []
+    assert (counter.collisions.count, counter.hits.count) == (1, 1)
+
+
+def test_a_wall_is_never_who_hits() -> None:
+    counter = ContactCounter()
+    assert counter.observe(1.0, "wall", None, drives_towards=False) == [Collision(1.0, "wall")]
+    assert counter.hits.count == 0

@@ -19,6 +19,7 @@ FORBIDDEN = {
 }
 # The renderer's physics server simulates nothing; `placement` serves all others.
 PLACERS = {
+    ("world/physics/assembly.py", "_follow"),  # a gear between two joints of one model of the universe
     ("world/physics/robot.py", "push"),  # a fault of an evaluation
     ("world/physics/placement.py", "put"),
     ("world/physics/placement.py", "put_at_rest"),

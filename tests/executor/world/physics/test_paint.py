@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from executor.universes.model import TEXTURES
-from executor.world.physics.paint import PaintError, image_size, shipped
+from executor.world.geometry.pictures import PictureError, image_size
+from executor.world.physics.paint import shipped
 
 
 @pytest.mark.parametrize("name", sorted(TEXTURES))
@@ -17,5 +18,5 @@ def test_what_we_ship_is_a_picture_with_its_size(name: str) -> None:
 
 
 def test_what_is_no_picture_is_refused() -> None:
-    with pytest.raises(PaintError):
+    with pytest.raises(PictureError):
         image_size(b"nonsense")

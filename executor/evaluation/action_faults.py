@@ -15,8 +15,8 @@ def switch_action(tree: Tree, tree_id: str, node_id: str, *, on: bool) -> None:
     for node in tree.nodes:
         behaviour: Any = getattr(node, "instance_behaviour", None)
         if behaviour is not None and (node.tree_id, node.node_id) == (tree_id, node_id):
-            leaf: Any = node  # a leaf holds the function that it calls
-            leaf.update = _raise if on else behaviour.update
+            leaf: Any = node
+            leaf.replace_update(_raise if on else behaviour.update)
 
 
 def _raise() -> Any:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Final, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
+from pydantic import Field, StringConstraints, field_validator, model_validator
+
+from executor.universes.strict import Strict
 
 FOLDER: Final = "evaluations/"
 ENDING: Final = ".yaml"
@@ -21,17 +23,13 @@ Pose6 = tuple[Finite, Finite, Finite, Finite, Finite, Finite]
 Measure = Literal["time_to_success_s", "path_length_m", "smallest_clearance_m", "mean_speed_m_s", "energy_j"]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
 def _ordered(range_: Range) -> Range:
     if range_[0] > range_[1]:
         raise ValueError("a range [a, b] starts with its lower bound")
     return range_
 
 
-class Draw(_Strict):
+class Draw(Strict):
     """The draw of one value: `[a, b]` is uniform.
 
     `normal` is [mean, standard deviation] and needs `clip`, to which values beyond it are moved. `choice`
@@ -71,7 +69,7 @@ class Draw(_Strict):
         return self
 
 
-class Until(_Strict):
+class Until(Strict):
     """Runs until the interval of the rate is narrow enough: at most `half_width` to each side."""
 
     half_width: float = Field(gt=0, lt=0.5, description="Half the width of the interval at which it ends.")
@@ -97,7 +95,7 @@ _OWN_FIELDS: Final = ("sensor", "topic", "wheel", "node", "factor", "delay_s", "
                       "impulse_n_s", "direction")  # fmt: skip
 
 
-class Fault(_Strict):
+class Fault(Strict):
     """A fault: from `at_s`, for `for_s` (until the end without it), with a probability.
 
     `at_s` and `for_s` are numbers, or ranges from which they are drawn. It happens to the first robot, or to
@@ -163,18 +161,19 @@ class Fault(_Strict):
         return ".".join(part for part in ("faults", self.kind, self.robot or "", target) if part)
 
 
-class Reach(_Strict):
+class Reach(Strict):
     """The robot stands in an area, within a time if one is given."""
 
     area: Word = Field(description="The robot's middle has to be in this area of the universe.")
     within_s: NotNegative | None = Field(default=None, description="In so much time from the start.")
 
 
-class Never(_Strict):
+class Never(Strict):
     """An event that must not happen: a collision, or something closer than a distance."""
 
     collision: Literal[True] | None = Field(
-        default=None, description="Touching anything but the floor; `never: collision` for short."
+        default=None,
+        description="Driving into anything but the floor; being hit is none. `never: collision` for short.",
     )
     closer_than_m: NotNegative | None = Field(default=None, description="Something is closer than this.")
     to: Word = Field(
@@ -195,7 +194,7 @@ class Never(_Strict):
         return self
 
 
-class Criterion(_Strict):
+class Criterion(Strict):
     """One item of `success`: a goal (`reach`, `visit`, `tree`), a `never`, or a function of the project.
 
     `python` names a function as `file.py:function`, beside the evaluation; `at_least` and `at_most` are the
@@ -257,7 +256,7 @@ class Criterion(_Strict):
         return self.reach.within_s if self.reach is not None else self.within_s
 
 
-class Judge(_Strict):
+class Judge(Strict):
     """The items of success, and the measures."""
 
     success: tuple[Criterion, ...] = Field(
@@ -268,7 +267,7 @@ class Judge(_Strict):
     )
 
 
-class Evaluation(_Strict):
+class Evaluation(Strict):
     """An evaluation of a project: worlds, robot, length, seeds, what varies, faults and judge."""
 
     format: Literal["bt-studio/evaluation"] = Field(description="Required.")

@@ -198,8 +198,6 @@ class Faults:
             if self._switch(each, on=True):
                 self.happened.append(each.to_json())
 
-    # --- inside ---
-
     def _switch(self, each: Scheduled, *, on: bool) -> bool:
         """Begins or ends a fault; returns whether it could."""
         fault = each.fault

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.areas import contains, distance_m
+from tree_gardener.descriptions import text_of
+from tree_gardener.values import as_number, type_name_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -249,15 +251,22 @@ class PythonItem(Item):
 
 
 def _numbers(returned: Any, name: str) -> dict[str, float]:
-    if not isinstance(returned, dict):
-        raise JudgeError(f"{name} returned {type(returned).__name__}, not a dictionary of numbers")
+    if not issubclass(type(returned), dict):
+        raise JudgeError(f"{name} returned {type_name_of(returned)}, not a dictionary of numbers")
     found = {}
-    for key, value in returned.items():
-        if not isinstance(key, str) or isinstance(value, bool) or not isinstance(value, int | float):
-            raise JudgeError(f"{name} returned {key!r}: {value!r}, which is no number by its name")
-        if not math.isfinite(value):
-            raise JudgeError(f"{name} returned {key!r}: {value!r}, which is not finite")
-        found[key] = float(value)
+    for key, value in dict.items(returned):
+        number = None if type(value) is bool else as_number(value)
+        if not issubclass(type(key), str) or number is None:
+            raise JudgeError(
+                f"{name} returned {text_of(key)}: {text_of(value)}, which is no number by its name"
+            )
+        try:  # not their own methods, which users may replace
+            real = float.__float__(number) if isinstance(number, float) else float(int.__int__(number))
+        except OverflowError:
+            real = math.inf
+        if not math.isfinite(real):
+            raise JudgeError(f"{name} returned {text_of(key)}: {text_of(value)}, which is not finite")
+        found[str.__str__(key)] = real
     return found
 
 

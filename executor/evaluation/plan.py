@@ -15,7 +15,7 @@ from executor.evaluation.sealed.confine import require_seal
 from executor.evaluation.variation import Target, port_text, resolve, targets
 from executor.headless.files import write_files
 from executor.robots.config import RobotConfig, load_robot
-from executor.universes.document import DocumentError, Located, Problem, read_yaml
+from executor.universes.document import DocumentError, Located, Problem, read_yaml, text_of
 from executor.universes.loader import validate
 from executor.world.simulation.launch import find_universe
 from translator.check import check
@@ -86,6 +86,23 @@ def evaluation_names(project: Project) -> list[str]:
     )
 
 
+def read_evaluation(project: Project, name: str) -> tuple[Evaluation, Located]:
+    """Reads the file of an evaluation, and looks at nothing else.
+
+    Raises:
+        EvaluationError: there is no such evaluation.
+        DocumentError: it is wrong; the error has every problem.
+    """
+    names = evaluation_names(project)
+    file = f"{FOLDER}{name}{ENDING}"
+    if name not in names:
+        near = difflib.get_close_matches(name, names, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names) or 'none'}"
+        raise EvaluationError(f"{file}:1:1: there is no such evaluation ({hint})")
+    located = read_yaml(text_of(project.files[file], file), file)
+    return validate(located, Evaluation, file), located
+
+
 def make_plan(project: Project, name: str) -> Plan:
     """Reads and checks an evaluation.
 
@@ -94,18 +111,7 @@ def make_plan(project: Project, name: str) -> Plan:
         DocumentError: the evaluation, its universe or its robot is wrong; the error has every problem.
         TranslatorError: the project has errors.
     """
-    names = evaluation_names(project)
-    if name not in names:
-        near = difflib.get_close_matches(name, names, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names) or 'none'}"
-        raise EvaluationError(f"{FOLDER}{name}{ENDING}:1:1: there is no such evaluation ({hint})")
-    file = f"{FOLDER}{name}{ENDING}"
-    try:
-        text = project.files[file].decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise DocumentError([Problem("the document is not UTF-8")], file) from error
-    located = read_yaml(text, file)
-    evaluation = validate(located, Evaluation, file)
+    evaluation, located = read_evaluation(project, name)
     errors = errors_in(check(project))
     if errors:
         raise TranslatorError(errors)
@@ -116,7 +122,7 @@ def make_plan(project: Project, name: str) -> Plan:
     problems += _sensor_problems(plan, located) + _port_problems(plan, located)
     problems += [*_judge_problems(plan, located.place), *fault_problems(plan, located.place)]
     if problems:
-        raise DocumentError(sorted(problems, key=lambda problem: (problem.line, problem.column)), file)
+        raise DocumentError(sorted(problems, key=lambda problem: (problem.line, problem.column)), plan.file)
     return plan
 
 
@@ -142,14 +148,9 @@ def _open_world(project: Project, evaluation: Evaluation) -> tuple[Universe, tup
         raise EvaluationError(
             "project.json:1:1: a project without a simulated world (universe none) cannot be evaluated"
         )
-    launched = next((path for path in sorted(project.files) if path.startswith("launch/")), None)
-    if launched is not None:
-        raise EvaluationError(
-            f"{launched}:1:1: a project with launch files cannot be evaluated: its nodes run in real time"
-        )
     file = f"universes/{name}.yaml"
     own = project.files.get(file)
-    universe = find_universe(own.decode("utf-8") if own is not None else name, file)
+    universe = find_universe(text_of(own, file) if own is not None else name, file)
     if not universe.robots:
         raise EvaluationError(f"{file}:1:1: the universe has no robot, so there is nothing to judge")
     with tempfile.TemporaryDirectory(prefix="bt-studio-") as folder:

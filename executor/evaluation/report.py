@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.summary import Apart
+from executor.universes.version import version_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,6 +83,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
     pairs: Pairs | Apart | None = None,
     fingerprints: Sequence[str] = (),
     judged_by: str | None = None,
+    notes: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Returns all that the page shows.
 
@@ -96,6 +98,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
         pairs: the comparison with another version.
         fingerprints: those of the machines.
         judged_by: the project that the evaluation is of, if it is another one.
+        notes: a line for each part of the project that did not run, such as a launch node.
     """
     low, high = summary.interval
     return {
@@ -138,6 +141,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
         ],
         "plan": {} if universe is None else plan_of(universe),
         "fingerprints": list(fingerprints),
+        "notes": list(notes),
     }
 
 
@@ -161,12 +165,17 @@ def coverage_of(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
 
 
 def plan_of(universe: Universe) -> dict[str, Any]:
-    """Returns the plan of a world: outlines of its solid models and of its areas, in m."""
+    """Returns the plan of a world, in m: outlines of its solid models and of its areas; and its version."""
     outlines = [outline for model in universe.models if model.solid for outline in _outline(model)]
     areas = [
         {"name": name, "corners": [list(c) for c in area.corners]} for name, area in universe.areas.items()
     ]
-    return {"outlines": outlines, "areas": areas}
+    return {"outlines": outlines, "areas": areas, "universe": world_of(universe)}
+
+
+def world_of(universe: Universe) -> dict[str, str]:
+    """Returns the name and the version of the universe that results are of."""
+    return {"name": universe.name, "version": version_of(universe)}
 
 
 def _outline(model: Model) -> list[list[list[float]]]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.fingerprint import differences
 from executor.evaluation.outcome import Outcome, read_outcome
+from executor.evaluation.report import world_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -41,6 +42,12 @@ def kept_outcomes(
         raise ResultsError(
             f"{results.folder / HEADER}:1:1: the results are of another version of the project or "
             "evaluation; name another folder"
+        )
+    world, made_in = world_of(plan.universe), header.get("universe")
+    if made_in not in {None, world["version"]}:
+        raise ResultsError(
+            f"{results.folder / HEADER}:1:1: the results are of version {made_in} of the universe "
+            f"“{world['name']}”, which is {world['version']} now; name another folder"
         )
     earlier: list[dict[str, str]] = header.get("fingerprints", [])
     notes = [

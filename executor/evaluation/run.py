@@ -140,8 +140,6 @@ class EvaluationRun(LockstepRun):
             return self.outcome_of(self._decision.outcome, self._decision.why)
         return self.outcome_of(ERROR, self.error_text())
 
-    # --- the world ---
-
     def make_world(self, assets: Path) -> BulletWorld:
         """Returns the world of the seed; the ports of the project are drawn with it."""
         plan, seed = self._plan, self._seed
@@ -206,8 +204,6 @@ class EvaluationRun(LockstepRun):
             raise JudgeError(f"{file}:1:1: there is no function {function!r}")
         return lambda truth: _judging(file, lambda: found(truth))
 
-    # --- while it runs ---
-
     def sample(self, tick: int) -> None:
         """Adds nothing to the report: the truth holds more."""
 
@@ -231,7 +227,7 @@ class EvaluationRun(LockstepRun):
             self._look()
 
     def _bumped(self, robot: str, collision: Collision) -> None:
-        if robot == self._robot.id and not self._is_settled:
+        if robot == self._robot.id and not self._is_settled and not collision.is_hit:
             x, y, _ = self._robot.pose
             self._truth.bumps.append(Bump(collision.time_s, x, y, collision.body))
 
@@ -277,8 +273,6 @@ class EvaluationRun(LockstepRun):
         self._verdicts = self._referee.verdicts()
         self._path.append([round(value, 3) for value in (truth.time_s, *self._robot.pose[:2])])
         self.count_seen()
-
-    # --- the end ---
 
     def count_seen(self) -> None:
         """Keeps the results of each node so far."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from executor.replay_messages import FINGERPRINT_BYTES
 
@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Fingerprints"]
 
-_PLAIN = (bool, int, float, str, bytes, type(None))
+_PLAIN: Final[tuple[Any, ...]] = (bool, int, float, str, bytes, type(None))
+_BITS: Final = 4_096
 
 
 class Fingerprints:
@@ -55,4 +56,8 @@ def _plain(change: TickChanges) -> Any:
 
 
 def _value(value: Any) -> str:
-    return repr(value) if isinstance(value, _PLAIN) else ""
+    for kind in _PLAIN:
+        if issubclass(type(value), kind):
+            is_long = kind is int and int.bit_length(value) > _BITS  # Python refuses to write it in decimals
+            return int.__format__(value, "x") if is_long else str(kind.__repr__(value))
+    return ""

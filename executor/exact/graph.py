@@ -6,10 +6,9 @@ import threading
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rclpy.node import Node
-
     from executor.headless.participants import Participants
     from executor.world.interface import World
+    from tree_gardener.ros_node import ActionNode
 
 __all__ = ["ExactGraph"]
 
@@ -29,7 +28,7 @@ class ExactGraph:
         self._world, self._ros = world, ros
 
     @property
-    def node(self) -> Node:
+    def node(self) -> ActionNode:
         """The node of the actions, once the world is there."""
         if self._ros is None:
             raise RuntimeError("the world is not built yet")

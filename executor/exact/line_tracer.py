@@ -128,8 +128,6 @@ class LineTracer:
             self._names[path] = self._files.file_of(path)
         return self._names[path]
 
-    # --- what Python calls ----------------------------------------------------------------------------
-
     def _begin(self, frame: FrameType, _event: str, _arg: Any) -> LocalTrace:
         """Begins a call; Python calls this for each new frame."""
         code = frame.f_code
@@ -166,7 +164,7 @@ class LineTracer:
         if it is None or self.is_cut:
             return None
         if event == "exception":
-            it.raised = _raised(arg[1])
+            it.raised = _short(describe(arg[1]))
             return self._follow
         self._look(it, frame)
         if event == "line":
@@ -189,8 +187,6 @@ class LineTracer:
             return follow
 
         return follow
-
-    # --- inside ---------------------------------------------------------------------------------------
 
     def _step(self) -> None:
         self._steps += 1
@@ -218,7 +214,7 @@ class LineTracer:
         changed: list[SourceValue] = []
         for name, value in self._values_of(it, frame):
             before = it.known.get(name)
-            if before is not None and before[0] is value and isinstance(value, SIMPLE):
+            if before is not None and before[0] is value and type(value) in SIMPLE:
                 continue
             text = self._text(value)
             it.known[name] = (value, text)
@@ -235,8 +231,11 @@ class LineTracer:
         return found[:MOST_VALUES] + self._fields(it)[:MOST_VALUES]
 
     def _fields(self, it: _Open) -> list[tuple[str, Any]]:
-        fields = getattr(it.owner, "__dict__", None)
-        if not isinstance(fields, dict):
+        try:
+            fields = getattr(it.owner, "__dict__", None)
+        except Exception:  # a property of the user
+            return []
+        if type(fields) is not dict:
             return []
         return [(f"self.{name}", value) for name, value in list(fields.items()) if name not in it.hidden]
 
@@ -268,13 +267,6 @@ class LineTracer:
             names = {name for code in codes if not self._name_of(code.co_filename) for name in code.co_names}
             self._hidden[kind] = frozenset({*names, ENGINE_FIELD})
         return self._hidden[kind]
-
-
-def _raised(error: BaseException) -> str:
-    try:
-        return _short(describe(error))
-    except Exception:  # its text is made by the user's code
-        return type(error).__name__
 
 
 def _short(text: str) -> str:

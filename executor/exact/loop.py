@@ -165,8 +165,6 @@ class ExactLoop(SimulationLoop):
             return 0.0
         return self._pacer.next_due_s(now_s, max(0, self._stepper.count(self.next_tick_step) - self._credit))
 
-    # --- inside ---
-
     @property
     def _is_tick_due(self) -> bool:
         return self._stepper.done >= self.next_tick_step

@@ -90,8 +90,6 @@ class ExactApplication(Application):
         pulse.locate = SlowTicks(pulse.locate, self._is_waited_for, gate.send)
         _warm_up()
 
-    # --- what differs from an application beside its world ------------------------------------------
-
     def _make_graph(self) -> ApplicationGraph:
         return self._exact_graph
 
@@ -214,8 +212,6 @@ class ExactApplication(Application):
             self._exact.close()
         super().close()
 
-    # --- inside -------------------------------------------------------------------------------------
-
     @property
     def _exact_world(self) -> ExactWorld:
         assert self._exact is not None  # noqa: S101 - it is built before anything runs
@@ -247,6 +243,8 @@ class ExactApplication(Application):
         assert runner is not None  # noqa: S101 - time passes only after `ready`
         self._pulse.moved()
         self._pulse.ticks = exact.loop.ticks
+        if self._python_debugger.is_connected:
+            self._tell_fingerprints()  # at a line of Python this thread tells nothing
         self._is_in_tick = True
         if self._replaying is not None and runner.state is RunnerState.PAUSED:
             runner.resume()  # pauses are not made again
@@ -294,8 +292,6 @@ class ExactApplication(Application):
             self._send(child_messages.Fingerprints(bytes(self._prints)))
             self._prints.clear()
 
-    # --- snapshots ----------------------------------------------------------------------------------
-
     def _is_snapshot_due(self) -> bool:
         return self._keeping.is_due(self._loop, draws=bool(self._exact_world.renderer_name))
 
@@ -333,8 +329,6 @@ class ExactApplication(Application):
             self._channel.flush(GOODBYE_S)
             os._exit(0)
         self._channel.send(child_messages.ApplicationReady())
-
-    # --- many values, each in a copy of its own ------------------------------------------------------
 
     def _try_many(self, message: child_messages.TryMany) -> None:
         """Continues the run once for each change, in copies; it stays where it is itself."""
@@ -389,8 +383,6 @@ class ExactApplication(Application):
                 self._guarded(lambda: trial.run(message.duration_s))
         self._tell_fingerprints()
         return trial.outcome(message.job, index, self._known_after)
-
-    # --- an earlier run, again ----------------------------------------------------------------------
 
     def _replay(self, replay: Replay) -> bool:
         """Makes an earlier run again up to a moment, and pauses there; returns whether that is possible."""

@@ -128,8 +128,6 @@ class Replaying:
         if not self._give(hook):
             raise NotThereError(self._lost("The debugger held the tree here the first time, too, but longer"))
 
-    # --- inside -------------------------------------------------------------------------------------
-
     def _is_there(self) -> bool:
         if self._loop.ticks >= self._most_ticks:
             return True  # a tick that did not end may be what ended the run

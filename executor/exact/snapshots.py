@@ -113,8 +113,6 @@ class Snapshots:
                 os.waitpid(self._between, 0)
             self._between = None
 
-    # --- in the snapshot ---
-
     def _wait(self, number: int) -> Woken:
         """Waits, and forks a copy each time that the manager wakes this one; returns in the copy."""
         try:

@@ -138,8 +138,6 @@ class Trial:
             as_before=prints[:common] == known[:common] if common else None,
         )
 
-    # --- inside ---
-
     def _look(self, *, is_last: bool = False) -> None:
         """Takes the places of the robots, and what they hit."""
         now_s = self._loop.time_s
@@ -153,6 +151,8 @@ class Trial:
             ):
                 path.append((round(now_s, 4), round(x, 4), round(y, 4)))
         for name, collision in self._world.take_collisions():
+            if collision.is_hit:
+                continue
             self._collisions += 1
             if self._crash is None:
                 x, y, _ = places.get(name, (0.0, 0.0, 0.0))

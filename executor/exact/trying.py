@@ -22,6 +22,7 @@ from executor.exact.foreign import Threads
 from executor.supervision.copies import renew_files
 from executor.supervision.parking import PARKING
 from executor.supervision.room import processors
+from executor.supervision.signal_names import how_ended
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -108,8 +109,6 @@ class Trying:
             self._listen()
             self._moved()
         self._send(TryingEnded(self._job, "complete"))
-
-    # --- inside ---
 
     def _start(self, index: int) -> bool:
         """Forks a continuation; returns whether that worked."""
@@ -212,8 +211,7 @@ class Trying:
                 outcome.job, outcome.index = self._job, it.index
                 return outcome
         code = os.waitstatus_to_exitcode(status)
-        how = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
-        return TryOutcome(self._job, it.index, "died", f"Its process {how}.")
+        return TryOutcome(self._job, it.index, "died", f"Its process {how_ended(code)}.")
 
     def _tell(self) -> None:
         done = self._done + sum(it.fraction for it in self._running.values())

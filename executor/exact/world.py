@@ -80,7 +80,7 @@ class ExactWorld:
         self.recorder = WorldRecorder(world, ros.node, BatchTap, recorder)
         self.recorder.join(partial(GraphTap, ros.context))
         self.loop.watchers += [self.recorder.look, topics.poll]
-        self.loop.watchers.append(Mismatches(ros.application, send).poll)
+        self.loop.watchers.append(Mismatches(ros.application, send, patience=1).poll)
         commands.loop, commands.topics, commands.recorder = self.loop, topics, self.recorder
 
     @property

@@ -66,8 +66,6 @@ class EventRecorder:
         t_ns = nanoseconds(frame["t"])
         self._writer.write("/scan", "sensor_msgs/msg/LaserScan", t_ns, laser_scan(t_ns, frame))
 
-    # --- inside ---
-
     def _record(self, topic: str, name: str, fields: dict[str, Any]) -> None:
         self._writer.record(topic, name, fields)
 

@@ -17,8 +17,9 @@ import struct
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-import msgspec
 from msgspec import Struct
+
+from executor.supervision.encoding import encode_message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -116,7 +117,6 @@ class RecorderLink:
         self._restate = restate
         self._clock = clock
         self._gather = gather
-        self._encode = msgspec.msgpack.Encoder().encode
         self._socket: socket.socket | None = None
         self._run = ""
         self._batch: list[bytes] = []
@@ -182,8 +182,6 @@ class RecorderLink:
             self._socket = None
         self._clear()
 
-    # --- inside ---
-
     def _tell_all(self) -> None:
         self._put(Mark(self._run))
         self._restate()
@@ -197,7 +195,7 @@ class RecorderLink:
             self._is_gathering = False
 
     def _put(self, message: Sent) -> None:
-        data = self._encode(message)
+        data = encode_message(message)
         if len(data) > MOST_MESSAGE_BYTES:
             return
         if len(self._waiting) + self._batch_bytes + len(data) > MOST_WAITING_BYTES:

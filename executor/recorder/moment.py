@@ -103,8 +103,6 @@ class Moment:
             "world": world,
         }
 
-    # --- inside ---
-
     def _take_poses(self, data: bytes) -> None:
         frame = _decode_poses(data)
         for place, object_id in enumerate(struct.unpack(f"<{len(frame.ids) // 2}H", frame.ids)):

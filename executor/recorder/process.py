@@ -125,8 +125,6 @@ class RecorderProcess:
             if not self._has_told:  # a segment is a sign of life too
                 self._channel.send(child_messages.Beat(0))
 
-    # --- the manager ------------------------------------------------------------------------------
-
     def _take_commands(self) -> None:
         while (message := self._channel.receive(0)) is not None:
             match message:
@@ -256,8 +254,6 @@ class RecorderProcess:
             recorder_messages.Recorded(Segment(*place, *times, segment.bytes, segment.is_complete))
         )
 
-    # --- the sources ------------------------------------------------------------------------------
-
     def _accept(self) -> None:
         source = take_source(self._listener)
         if source is None:
@@ -363,8 +359,6 @@ class RecorderProcess:
             case Dump():
                 fields = writer.moment.keyframe(message.t_ns, message.step, message.data)
                 writer.record("/bt/keyframe", "Keyframe", fields)
-
-    # --- what can fail ----------------------------------------------------------------------------
 
     def _guarded(self, write: Any) -> None:
         """Writes; a full disk ends the recording of this run, and an unknown type is left out."""

@@ -94,22 +94,40 @@ class RecordReader:
         if self.file.read(len(MAGIC)) != MAGIC:
             raise self._error(0, "it does not begin as an MCAP file", _OURS)
         self.read_to = len(MAGIC)
-        while True:
-            head = self.file.read(_HEAD.size)
-            if len(head) < _HEAD.size:
-                self.is_cut = True
-                return
-            opcode, length = _HEAD.unpack(head)
-            if opcode in {Opcode.DATA_END, Opcode.FOOTER}:
-                return
-            if length > self.limits.chunk_bytes + self.limits.attachment_bytes:
-                raise self._error(self.read_to, f"a record claims {length} bytes", "No record is as large.")
-            body = self.file.read(length)
-            if len(body) < length:
-                self.is_cut = True
-                return
+        while (found := self._next()) is not None:
+            opcode, body = found
             yield from self._records(opcode, body)
-            self.read_to += _HEAD.size + length
+            self.read_to += _HEAD.size + len(body)
+
+    def at(self, offset: int) -> Iterator[Record]:
+        """Yields the record at an offset, or all of its chunk; the limits of counts hold for it alone.
+
+        The file was read to its end before, so that its channels are known.
+
+        Raises:
+            RecordingError: as above.
+        """
+        self._unpacked = self._messages = 0
+        self.read_to = self.file.seek(offset)
+        if (found := self._next()) is not None:
+            yield from self._records(*found)
+
+    def _next(self) -> tuple[int, bytes] | None:
+        """Returns the kind and the content of the next record; None at the end."""
+        head = self.file.read(_HEAD.size)
+        if len(head) < _HEAD.size:
+            self.is_cut = True
+            return None
+        opcode, length = _HEAD.unpack(head)
+        if opcode in {Opcode.DATA_END, Opcode.FOOTER}:
+            return None
+        if length > self.limits.chunk_bytes + self.limits.attachment_bytes:
+            raise self._error(self.read_to, f"a record claims {length} bytes", "No record is as large.")
+        body = self.file.read(length)
+        if len(body) < length:
+            self.is_cut = True
+            return None
+        return opcode, body
 
     def _records(self, opcode: int, body: bytes) -> Iterator[Record]:
         at = self.read_to

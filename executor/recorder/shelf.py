@@ -155,8 +155,6 @@ class Shelf:
             file.seek(offset)
             return file.read(max(0, min(length, MOST_READ_BYTES, segment.bytes - offset)))
 
-    # --- inside ---
-
     def _keep_within(self, newest: Segment, budgets: Budgets) -> None:
         for segment in list(self.segments):
             is_old = segment.run != newest.run or newest.to_ns - segment.to_ns >= THIN_AFTER_NS

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.recorder.values import NO_WRITE, canonical, fingerprint, json_of, value_json
 from tree_gardener import Status
+from tree_gardener.py_trees_board import PREFIX
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -119,6 +120,10 @@ class TreeRecorder:
             for board in self._tree.boards
             for key, entry in board.entries.items()
         ]
+        entries += [
+            [*place, kind, json.loads(value_json(value, self._describe))]
+            for place, (kind, value) in self._tree.outside_entries().items()
+        ]
         fields = {
             "step": step,
             "tick": self._tree.tick_number,
@@ -128,8 +133,6 @@ class TreeRecorder:
             "world": world,
         }
         self._tell("/bt/keyframe", "Keyframe", fields)
-
-    # --- inside ---
 
     def _tell(self, topic: str, name: str, fields: dict[str, Any]) -> None:
         self.flush()
@@ -189,8 +192,18 @@ class TreeRecorder:
                 self._held[key] = (entry, now)
                 self._add(entry, NO_WRITE, now)
 
+    def _outside(self, changes: TickChanges) -> None:
+        """Notes the entries of py_trees, of which nobody knows the writer."""
+        for entry in changes.blackboard:
+            if entry.scope.startswith(PREFIX):
+                form = None if entry.removed else canonical(entry.value)
+                text = "null" if entry.removed else json_of(entry.value, form, self._describe)
+                self._rows.append((entry.scope, entry.key, entry.type, text, entry.removed, NO_WRITE))
+                self._forms.append((entry.scope, entry.key, entry.type, form))
+
     def _ticked(self, changes: TickChanges) -> None:
         self._find_changed_in_place()
+        self._outside(changes)
         duration_ms = max(0.0, changes.duration_s - self._left_out_s) * 1000.0
         self._ticks.append((self._now_ns(), changes, self._rows, self._forms, duration_ms))
         self._rows, self._forms, self._left_out_s = [], [], 0.0
@@ -205,6 +218,9 @@ class TreeRecorder:
             fields = {"stamp": stamp, "tick": changes.tick, "scope": scopes, "key": keys, "type": kinds}
             fields |= {"value_json": texts, "removed": removed, "writer_uid": writers}
             self._write("/bt/blackboard", "Blackboard", fields)
+        if changes.forced:
+            at = {"stamp": stamp, "generation": self._generation, "tick": changes.tick}
+            self._write("/bt/forced", "Forced", at | {"uid": changes.forced})
         changed_uid, changed_status = _columns(changes.changed)
         flashed_uid, flashed_status = _columns(changes.flashed)
         tick = {

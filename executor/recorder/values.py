@@ -30,16 +30,19 @@ _quoted: Final = json.encoder.encode_basestring
 def canonical(value: Any) -> str | None:
     """Returns a value as JSON that equal values share, or None if it has no such form."""
     kind = type(value)
-    if kind is str:
-        return _quoted(value)
-    if kind is int:
-        return repr(value)
-    if not _is_json(value, [MOST_ITEMS]):
-        return None
+    form: str | None = None
     try:
-        return _encode(value)
-    except (ValueError, TypeError, RecursionError):
+        if kind is str:
+            form = _quoted(value)
+        elif kind is int:
+            form = repr(value)
+        elif _is_json(value, [MOST_ITEMS]):
+            form = _encode(value)
+        if form is not None and not form.isascii():
+            form.encode()
+    except (ValueError, TypeError, RecursionError):  # NaN, half a character, an integer of 5,000 digits
         return None
+    return form
 
 
 def value_json(value: Any, describe: Callable[[Any], str]) -> str:

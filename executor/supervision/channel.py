@@ -27,6 +27,7 @@ import msgspec
 
 from executor.child_messages import Frame, name_of
 from executor.stream.frames import supersede
+from executor.supervision.encoding import encode_message
 from executor.supervision.threads import own
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def socket_pair() -> tuple[socket.socket, socket.socket]:
 
 def encode(message: msgspec.Struct) -> bytes:
     """Returns the bytes of a message, with its length as prefix."""
-    body = msgspec.msgpack.encode(message)
+    body = encode_message(message)
     if len(body) > MAX_MESSAGE_BYTES:
         raise ChannelError(f"a {name_of(message)} message of {len(body)} bytes is too large for the channel")
     return _PREFIX.pack(len(body)) + body

@@ -9,6 +9,8 @@ import signal
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
+from tree_gardener.descendants import adopt_orphans
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -27,7 +29,6 @@ INTERRUPT_SIGNAL: Final = signal.SIGUSR1
 TRACE_SIGNAL: Final = signal.SIGUSR2
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
 _PR_SET_PDEATHSIG: Final = 1
-_PR_SET_CHILD_SUBREAPER: Final = 36
 _copying: Final[list[bool]] = []
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000
 
@@ -71,13 +72,10 @@ def die_with(number: signal.Signals) -> None:
     _prctl(_PR_SET_PDEATHSIG, number)
 
 
-def adopt_orphans() -> None:
-    """Makes this process the parent of descendants that lose their own parent, so that it can end them."""
-    _prctl(_PR_SET_CHILD_SUBREAPER, 1)
-
-
-def confine_reader(memory_bytes: int, seconds: int, written_bytes: int) -> None:
+def confine_reader(memory_bytes: int, seconds: int, written_bytes: int, *, children: bool = False) -> None:
     """Limits this process, which reads untrusted files: memory, processor time, output, no children.
+
+    With `children` it may start some, which have the same limits each.
 
     It gives up the network where the platform lets it; most containers refuse, and have limits of their own.
     """
@@ -86,7 +84,10 @@ def confine_reader(memory_bytes: int, seconds: int, written_bytes: int) -> None:
         (resource.RLIMIT_FSIZE, written_bytes),
         (resource.RLIMIT_CPU, seconds),
         (resource.RLIMIT_CORE, 0),
-        (resource.RLIMIT_NPROC, 0),
     ):
-        resource.setrlimit(which, (most, most))
+        hard = resource.getrlimit(which)[1]  # who started BT Studio may have set a lower one
+        least = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(which, (least, least))
+    if not children:
+        resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
     ctypes.CDLL(None).unshare(_NEW_USER | _NEW_NET)

@@ -1,4 +1,4 @@
-"""Finds all descendants of this process without reading the state of every process each time."""
+"""The descendants of a process, and the end of those that users' code starts in a run."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from typing import Final
 
 import psutil
 
-__all__ = ["Descendants"]
+from tree_gardener.descendants import RunChildren, descendants
+
+__all__ = ["Descendants", "RunChildren", "descendants"]
 
 NOBODY: Final = 0
 """The parent id of the first process, of kernel threads, and of processes from outside of a container."""

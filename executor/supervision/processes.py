@@ -29,6 +29,7 @@ from executor.supervision.copies import MARK
 from executor.supervision.handover import HANDOVER_VARIABLE, Arrival, handover_pair, receive
 from executor.supervision.output import LineReader
 from executor.supervision.pulse import NOTES_VARIABLE
+from executor.supervision.signal_names import how_ended
 from executor.supervision.signs import Notes, Signs, look_at
 
 if TYPE_CHECKING:
@@ -95,6 +96,8 @@ class ChildProcess:
         self.pid = popen.pid
         self._mark = mark
         self.reason = ""
+        self.status: int | None = None
+        """The exit status, for the log; negative for a signal."""
         self._program = program
         self._popen = popen
         self._on_message = on_message
@@ -105,6 +108,7 @@ class ChildProcess:
         self.on_arrival: Callable[[Arrival], None] = Arrival.close
         """Called with each copy of the child that is handed over."""
         self.exited = asyncio.get_running_loop().create_future()
+        self._is_reaped = False
         clock = asyncio.get_running_loop().time
         self._out = LineReader("info", on_message, clock)
         self._err = LineReader("warning", on_message, clock)
@@ -227,22 +231,25 @@ class ChildProcess:
 
     def ask_to_end(self) -> None:
         """Interrupts a child without a channel, as Ctrl+C would; other children were asked by a message."""
-        if self._decode is None:
+        if self._decode is None and not self._is_reaped:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self.pid, signal.SIGINT)
 
     def kill(self, reason: str = "") -> None:
         """Kills the child's process group; `wait` ends the rest of its descendants."""
         self.reason = self.reason or reason
+        if self._is_reaped:
+            return  # its number may be that of another process
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
 
     async def wait(self) -> None:
         """Waits until no process of the child is left; `reason` then tells how it ended."""
         await self.exited
-        code = self._popen.wait()
-        self.reason = self.reason or _exit_reason(code, self._program.limits)
         self.kill()
+        self._is_reaped = True
+        self.status = code = self._popen.wait()
+        self.reason = self.reason or _exit_reason(code, self._program.limits)
         await asyncio.wait(self._readers, timeout=DRAIN_TIMEOUT_S)
         await self._end_tree()
         await asyncio.wait(self._readers, timeout=DRAIN_TIMEOUT_S)
@@ -377,10 +384,7 @@ def _exit_reason(code: int, limits: Limits) -> str:
         return f"was ended: it used more than the {limits.cpu_s} s of CPU time allowed"
     if code == -signal.SIGXFSZ and limits.file_bytes is not None:
         return f"was ended: it wrote a file of more than the {limits.file_bytes >> 20} MB allowed"
-    if code < 0:
-        with contextlib.suppress(ValueError):
-            return f"was killed by {signal.Signals(-code).name}"
-    return f"ended with exit code {code}"
+    return how_ended(code)
 
 
 def _used_bytes(tree: Iterable[psutil.Process], limit: int) -> int:

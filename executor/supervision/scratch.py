@@ -15,7 +15,7 @@ from typing import Final
 
 from executor.supervision.locks import is_abandoned, is_young
 
-__all__ = ["Scratch", "is_in_use"]
+__all__ = ["PREFIX", "Scratch", "is_in_use", "remove_abandoned"]
 
 PREFIX: Final = "bt-studio-session-"
 LOCK: Final = ".lock"
@@ -29,7 +29,7 @@ class Scratch:
     """
 
     def __init__(self) -> None:
-        _remove_abandoned(Path(tempfile.gettempdir()))
+        remove_abandoned(Path(tempfile.gettempdir()))
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX))
         self._lock = os.open(self.path / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -50,7 +50,8 @@ def is_in_use(path: Path) -> bool:
     return path.name.startswith(PREFIX) and is_kept
 
 
-def _remove_abandoned(place: Path) -> None:
+def remove_abandoned(place: Path) -> None:
+    """Removes the folders of processes that were killed."""
     for lock in place.glob(f"{PREFIX}*/{LOCK}"):
         if is_abandoned(lock):
             shutil.rmtree(lock.parent, ignore_errors=True)

@@ -186,7 +186,7 @@ class Supervisor:
         await child.wait()
         del self._children[key]
         await asyncio.to_thread(remove_abandoned_segments)
-        _log.info("%s %d %s", spawn.kind, child.pid, child.reason)
+        _log.info("%s %d %s (status %s)", spawn.kind, child.pid, child.reason, child.status)
         self._report(ChildExited(spawn.kind, spawn.number, child.reason, child.last_lines))
 
     async def _begin(self, spawn: Spawn | WakeSnapshot, on_message: Callable[[Said], None]) -> ChildProcess:

@@ -20,6 +20,7 @@ from executor.evaluation.evaluate import load_libraries, supervisor_of
 from executor.evaluation.fingerprint import fingerprint
 from executor.evaluation.pool.worker import Done, Limits, read_done
 from executor.supervision.confine import die_with_parent
+from executor.supervision.signal_names import how_ended
 from executor.supervision.single_threaded import SINGLE_THREADED
 
 if TYPE_CHECKING:
@@ -76,8 +77,7 @@ def _read(lines: Sequence[bytes]) -> Iterator[Done]:
 
 def _why(status: int, wrong: bytes) -> str:
     last = wrong.decode(errors="replace").strip().splitlines()[-1:]
-    how = f"signal {-status}" if status < 0 else f"status {status}"
-    return f"its supervisor ended with {how}" + (f": {last[0][:300]}" if last else "")
+    return f"its supervisor {how_ended(status)}" + (f": {last[0][:300]}" if last else "")
 
 
 def serve(lines: BinaryIO, out: int) -> None:

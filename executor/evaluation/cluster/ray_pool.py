@@ -125,8 +125,6 @@ class RayPool:
             rest = left[1:]
             self._run_batches([rest[at : at + size] for at in range(0, len(rest), size)], told)
 
-    # --- inside ---
-
     def _run_batches(self, batches: list[list[int]], told: Callable[[Done], bool]) -> bool:
         """Runs batches; returns whether further runs are wanted."""
         ray = self._ray

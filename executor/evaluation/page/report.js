@@ -7,12 +7,15 @@
   function header() {
     add(root, 'h1', {}, data.evaluation);
     add(root, 'p', { class: 'soft' }, data.project);
+    const world = data.plan.universe;
+    if (world) add(root, 'p', { class: 'soft' }, `${world.name}, version ${world.version}`);
     const made = card('Success');
     add(made, 'div', { class: 'big' }, data.counted ? percent(data.rate) : 'no runs');
     const kind = data.sequential ? 'confidence sequence' : 'interval';
     add(made, 'p', {}, `${data.successes} of ${data.counted} runs; 95 % ${kind} ${percent(data.low)} to ${percent(data.high)}`);
     if (data.stopped_early) add(made, 'p', {}, 'Stopped early: the interval was narrow enough.');
     if (!data.complete) add(made, 'p', { class: 'fails' }, `Incomplete: ${data.counted} of ${data.wanted} runs count.`);
+    for (const note of data.notes) add(made, 'p', { class: 'soft' }, note);
     for (const gate of data.gates) add(made, 'p', { class: gate.passes ? 'passes' : 'fails' }, gate.text);
     if (data.against) for (const line of data.against.lines) add(made, 'p', {}, line);
   }

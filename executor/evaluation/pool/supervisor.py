@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from executor.evaluation.outcome import LOST, Outcome
-from executor.evaluation.pool.accounting import descendants
 from executor.evaluation.pool.worker import MEMORY_BYTES, Done, Job, Limits, read_done, work
 from executor.supervision.confine import adopt_orphans
+from executor.supervision.descendants import descendants
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -118,8 +118,6 @@ class Supervisor:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(worker.pid, signal.SIGKILL)
             self._bury(worker)
-
-    # --- inside ---
 
     def _first(self, told: Callable[[Done], bool]) -> Callable[[Done], bool]:
         def hear(done: Done) -> bool:

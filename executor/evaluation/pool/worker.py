@@ -14,29 +14,35 @@ import os
 import re
 import resource
 import select
-import shutil
 import signal
 import tempfile
 import time
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.outcome import CRASHED, ERROR, LOST, TIMEOUT, Outcome, read_outcome
-from executor.evaluation.pool.accounting import descendants, usage
+from executor.evaluation.pool.accounting import usage, written_bytes
 from executor.supervision.confine import TRACE_SIGNAL, adopt_orphans
+from executor.supervision.descendants import descendants
+from executor.supervision.scratch import Scratch
+from executor.supervision.signal_names import signal_name
 
 if TYPE_CHECKING:
     import socket
     from collections.abc import Callable
+    from pathlib import Path
 
     Cell = Callable[[int], Outcome]
     """Runs a seed in this process."""
 
 POLL_S: Final = 0.05
 WALL_FACTOR: Final = 10.0
-MEMORY_BYTES: Final = 3 << 30
+MEMORY_BYTES: Final = int(os.environ.get("BT_STUDIO_EVALUATION_MEMORY_MB") or 3072) << 20
+"""What one process of a run may take; containers set it by their own limit."""
 MOST_BYTES: Final = 64 << 20
+MOST_PROCESSES: Final = 256
+MOST_WRITTEN: Final = 192 << 20
+"""The most bytes in the folder of the actions of a sealed run, where no mount bounds it."""
 # A busy machine needs a while for the trace. It is written in pieces, so its first bytes say nothing yet.
 TRACE_S: Final = 5.0
 _PR_SET_PDEATHSIG: Final = 1
@@ -113,7 +119,7 @@ def run_apart(job: Job, cell: Cell, *, inherited: int = -1) -> Done:
         inherited: a descriptor that the run must not have.
     """
     began_s = time.monotonic()
-    folder = tempfile.mkdtemp(prefix="bt-studio-run-")
+    scratch = Scratch()  # also removed if this process is killed
     trace = os.memfd_create("trace")
     reader, writer = os.pipe()
     pid = os.fork()
@@ -121,20 +127,20 @@ def run_apart(job: Job, cell: Cell, *, inherited: int = -1) -> Done:
         os.close(reader)
         if inherited >= 0:
             os.close(inherited)
-        _run_child(job, cell, writer, trace, folder)
+        _run_child(job, cell, writer, trace, scratch.path)
     os.close(writer)
     try:
-        watch = _Watch(pid, reader, trace, job)
+        watch = _Watch(pid, reader, trace, job, str(scratch.path))
         data, ended = watch.wait()
-        outcome = _outcome_of(job.seed, data, ended or "", watch.status, _place_in(trace))
+        outcome = _outcome_of(job.seed, data, ended or "", watch, _place_in(trace))
         return Done(outcome, round(watch.cpu_s, 3), time.monotonic() - began_s, watch.rss_bytes)
     finally:
         os.close(reader)
         os.close(trace)
-        shutil.rmtree(folder, ignore_errors=True)
+        scratch.remove()
 
 
-def _outcome_of(seed: int, data: bytes, ended: str, status: int, place: str) -> Outcome:
+def _outcome_of(seed: int, data: bytes, ended: str, watch: _Watch, place: str) -> Outcome:
     where = f" in {place}" if place else ""
     if ended == TIMEOUT:
         file = f" in {place.partition(':')[0]}" if place else ""
@@ -142,27 +148,29 @@ def _outcome_of(seed: int, data: bytes, ended: str, status: int, place: str) -> 
     if ended == LOST:
         return Outcome(seed, LOST, "the run took more than its limit of real time")
     if ended == CRASHED:
-        return Outcome(seed, CRASHED, "the processes of the run took more than their limit of memory")
+        return Outcome(seed, CRASHED, watch.excess)
     with contextlib.suppress(ValueError):
         found = read_outcome(data)
         if found.seed == seed:
             return found
-    if os.WIFSIGNALED(status):
-        name = signal.Signals(os.WTERMSIG(status)).name
+    if os.WIFSIGNALED(watch.status):
+        name = signal_name(os.WTERMSIG(watch.status))
         return Outcome(seed, CRASHED, f"the process of the run ended with {name}{where}")
     return Outcome(
-        seed, CRASHED, f"the process of the run ended by itself with status {os.WEXITSTATUS(status)}"
+        seed, CRASHED, f"the process of the run ended by itself with status {os.WEXITSTATUS(watch.status)}"
     )
 
 
 class _Watch:
     """Waits for a run, reads its result, and ends it at its limits."""
 
-    def __init__(self, pid: int, reader: int, trace: int, job: Job) -> None:
+    def __init__(self, pid: int, reader: int, trace: int, job: Job, folder: str) -> None:
         self._pid = pid
         self._reader = reader
         self._trace = trace
         self._limits = job.limits
+        self._folder = folder
+        self.excess = ""
         self.status = 0
         self.cpu_s = 0.0
         self.rss_bytes = 0
@@ -203,11 +211,18 @@ class _Watch:
         return bool(piece)
 
     def _over(self, end_s: float) -> str | None:
-        used = usage(descendants(os.getpid()))
+        pids = descendants(os.getpid())
+        used = usage(pids)
         self.cpu_s, self.rss_bytes = max(self.cpu_s, used.cpu_s), max(self.rss_bytes, used.rss_bytes)
         if used.cpu_s > self._limits.cpu_s:
             return TIMEOUT
         if used.rss_bytes > 2 * self._limits.memory_bytes:
+            self.excess = "the processes of the run took more than their limit of memory"
+        elif len(pids) > MOST_PROCESSES:
+            self.excess = "the run started more processes than it may"
+        elif written_bytes(self._folder) > MOST_WRITTEN:
+            self.excess = "the actions of the run wrote more than they may"
+        if self.excess:
             return CRASHED
         return LOST if time.monotonic() > end_s else None
 
@@ -222,14 +237,18 @@ class _Watch:
     def _bury(self) -> None:
         """Waits for the run, and ends all that it has left."""
         _, self.status, used = os.wait4(self._pid, 0)
-        self.cpu_s = max(self.cpu_s, used.ru_utime + used.ru_stime)
+        cpu_s = used.ru_utime + used.ru_stime
         self.rss_bytes = max(self.rss_bytes, used.ru_maxrss << 10)
         while left := descendants(os.getpid()):
             for pid in left:
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
             with contextlib.suppress(ChildProcessError):
-                os.waitpid(-1, 0)
+                how = 0  # waits for one, and takes those that have ended with it
+                while (ended := os.wait4(-1, how))[0]:
+                    cpu_s += ended[2].ru_utime + ended[2].ru_stime
+                    how = os.WNOHANG
+        self.cpu_s = max(self.cpu_s, cpu_s)
 
 
 def _wait_for(condition: Callable[[], bool]) -> None:
@@ -246,10 +265,7 @@ def _place_in(trace: int) -> str:
     return f"{found[1].decode(errors='replace')}:{int(found[2])}" if found else ""
 
 
-# --- in the run's own process ---
-
-
-def _run_child(job: Job, cell: Cell, writer: int, trace: int, folder: str) -> None:
+def _run_child(job: Job, cell: Cell, writer: int, trace: int, folder: Path) -> None:
     """Runs the seed, writes its outcome, and ends this process. Never returns."""
     own = os.getpid()
     try:
@@ -267,7 +283,7 @@ def _run_child(job: Job, cell: Cell, writer: int, trace: int, folder: str) -> No
         os._exit(1)
 
 
-def _confine(job: Job, trace: int, folder: str) -> None:
+def _confine(job: Job, trace: int, folder: Path) -> None:
     libc: Any = ctypes.CDLL(None)
     libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     os.setpgid(0, 0)
@@ -279,8 +295,7 @@ def _confine(job: Job, trace: int, folder: str) -> None:
     faulthandler.register(TRACE_SIGNAL, trace)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_DATA, (job.limits.memory_bytes,) * 2)
-    tempfile.tempdir = folder
-    os.environ["TMPDIR"] = str(Path(folder))
+    tempfile.tempdir = os.environ["TMPDIR"] = str(folder)
 
 
 def _write(writer: int, data: bytes) -> None:

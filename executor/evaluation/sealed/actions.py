@@ -62,7 +62,6 @@ class Actions:
         self._tree: Tree
         self._runner: Runner
         self._executor: Any
-        self._locator: Any
 
     def serve(self) -> None:
         """Does what the judge's end asks, until it closes the link."""
@@ -92,13 +91,10 @@ class Actions:
     def sleep(self, duration_s: float) -> None:
         """Does nothing: simulated time does not pass within a tick."""
 
-    # --- loading ---
-
     def _load(self, load: Load) -> None:
         from rclpy.parameter import Parameter  # noqa: PLC0415 - ROS reads the environment when loaded
 
         from executor.application.host import enter, prepare  # noqa: PLC0415 - as above
-        from executor.application.locate import Locator  # noqa: PLC0415
         from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from executor.evaluation.sealed.gateway import Gateway  # noqa: PLC0415
         from executor.headless.files import write_files  # noqa: PLC0415
@@ -128,9 +124,7 @@ class Actions:
         prepare()
         enter(folder)
         seed_randomness(load.seed)
-        self._locator = Locator()
         self._tree = Tree.from_xml(load.tree, clock=self)
-        self._locator.learn(self._tree)
         self._tree.setup(node=node)
         self._counts = self._tree.count_results()
         self._navigation_every = max(1, round(load.tick_hz / NAVIGATION_HZ))
@@ -140,9 +134,8 @@ class Actions:
             on_finish=load.on_finish,
             on_error=load.on_error,
             fault=lambda error: self._faults.append(_fault_of(error)),
+            halted=node.commanded.stop,
         )
-
-    # --- running ---
 
     def _do(self, message: ToActions) -> None:
         match message:
@@ -168,8 +161,8 @@ class Actions:
 
     def _answer_tick(self) -> None:
         try:
-            broken = self._call_back()
-            status = None if broken else self._runner.tick_now()
+            self._call_back()
+            status = self._runner.tick_now()
             self._ticks += 1
             if self._ticks % self._navigation_every == 0:
                 self._check_navigation()
@@ -184,25 +177,18 @@ class Actions:
                 None if status is None else status.name,
                 self._runner.status.name,
                 self._runner.is_finished,
-                broken,
                 faults,
             )
         )
 
-    def _call_back(self) -> bool:
-        """Runs the callbacks of the actions; returns whether one has raised."""
-        from tree_gardener.errors import describe  # noqa: PLC0415 - after the sealing
-
+    def _call_back(self) -> None:
+        """Runs the callbacks of the actions; an exception of one may end the run."""
         try:
             self._executor.drain()
         except _NavigationError:
             raise
         except (Exception, SystemExit) as error:
-            place = self._locator.place_of_error(error)
-            text = describe(error)[:MOST_TEXT]
-            self._faults.append(Fault(text, place.file or None, place.line or None, place.node_path or None))
-            return True
-        return False
+            self._runner.fail(error)
 
     def _let_time_pass(self) -> None:
         """Asks for time while an action waits in rclpy."""

@@ -7,6 +7,7 @@ decoded, and no more than a claim afterwards.
 
 from __future__ import annotations
 
+import select
 import struct
 from typing import TYPE_CHECKING, Final
 
@@ -116,14 +117,13 @@ class Failed(msgspec.Struct, frozen=True, tag=True):
 
 
 class Ticked(msgspec.Struct, frozen=True, tag=True):
-    """The tree was ticked, or a callback has raised (`is_broken`)."""
+    """The tree was ticked, or an exception of a callback has ended it."""
 
     listeners: list[int]
     heard: list[Heard]
     status: str | None = None
     last: str = "IDLE"
     is_finished: bool = False
-    is_broken: bool = False
     faults: list[Fault] = []
 
 
@@ -147,10 +147,19 @@ _OF_ACTIONS: Final = msgspec.msgpack.Decoder(ToJudge)
 
 
 class Link:
-    """One end of the link; it blocks."""
+    """One end of the link; it blocks.
 
-    def __init__(self, end: socket.socket) -> None:
+    Args:
+        end: the socket.
+        process_fd: of the process at the other end; its end closes the link, also if a fork of it lives on.
+    """
+
+    def __init__(self, end: socket.socket, process_fd: int | None = None) -> None:
         self._end = end
+        self._poll = None if process_fd is None else select.poll()
+        if self._poll is not None and process_fd is not None:
+            for fd in (end.fileno(), process_fd):
+                self._poll.register(fd, select.POLLIN)
 
     def send(self, message: msgspec.Struct) -> None:
         """Sends a message.
@@ -196,6 +205,8 @@ class Link:
         data = bytearray(count)
         view, done = memoryview(data), 0
         while done < count:
+            if self._poll is not None and all(fd != self._end.fileno() for fd, _ in self._poll.poll()):
+                raise LinkClosedError
             try:
                 got = self._end.recv_into(view[done:])
             except OSError as error:

@@ -46,10 +46,16 @@ class RemoteNode:
         return RemotePublisher(self, len(self.publishers) - 1, topic)
 
     def create_subscription(
-        self, kind: type, topic: str, _callback: Callable[[Any], None], qos: QoSProfile | int
+        self,
+        kind: type,
+        topic: str,
+        _callback: Callable[[Any], None],
+        qos: QoSProfile | int,
+        *,
+        raw: bool = False,
     ) -> RemoteSubscription:
         """Returns a subscription, as rclpy's method does."""
-        found = self.subscriptions[topic] = RemoteSubscription(kind, topic, _read_qos(qos)[0])
+        found = self.subscriptions[topic] = RemoteSubscription(kind, topic, _read_qos(qos)[0], raw=raw)
         return found
 
     def destroy_subscription(self, subscription: RemoteSubscription) -> bool:
@@ -62,8 +68,6 @@ class RemoteNode:
     def get_publishers_info_by_topic(self, _topic: str) -> list[Any]:
         """Returns no publishers: a command's type is known from the command."""
         return []
-
-    # --- the link ---
 
     def add(self, publisher: int, data: bytes) -> None:
         """Keeps a message until it is taken."""
@@ -113,10 +117,9 @@ class RemotePublisher:
 class RemoteSubscription:
     """A subscription of a `RemoteNode`; it is its own handle."""
 
-    raw = False
-
-    def __init__(self, kind: type, topic: str, depth: int) -> None:
+    def __init__(self, kind: type, topic: str, depth: int, *, raw: bool = False) -> None:
         self.msg_type = kind
+        self.raw = raw
         self.topic = topic
         self.depth = depth
         self._waiting: deque[bytes] = deque(maxlen=depth)
@@ -136,11 +139,13 @@ class RemoteSubscription:
         """Adds a message; the oldest one is dropped if there are too many."""
         self._waiting.append(data)
 
-    def take_message(self, kind: type, _raw: bool) -> tuple[Any, dict[str, Any]] | None:  # noqa: FBT001 - as rclpy's
-        """Returns the next message that can be read, or None."""
+    def take_message(self, kind: type, raw: bool) -> tuple[Any, dict[str, Any]] | None:  # noqa: FBT001 - as rclpy's
+        """Returns the next message that can be read, or its bytes if it is wanted raw; or None."""
         while self._waiting:
+            data = self._waiting.popleft()
             try:
-                return deserialize_message(self._waiting.popleft(), kind), {}
+                message = deserialize_message(data, kind)
+                return (data if raw else message), {}
             except Exception:  # noqa: S112 - the bytes are no message of the type, as any program can send
                 continue
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import select
 import shutil
 import signal
 import socket
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.outcome import CRASHED, ERROR, Outcome
+from executor.evaluation.pool.accounting import SCRATCH_PREFIX
 from executor.evaluation.run import EvaluationRun, actions_seed
 from executor.evaluation.sealed.actions import MOST_TEXT, place_of
 from executor.evaluation.sealed.confine import free_uid
@@ -35,6 +37,8 @@ from executor.evaluation.sealed.link import (
 )
 from executor.evaluation.sealed.remote import RemoteNode
 from executor.ros.values import type_name
+from executor.supervision.descendants import RunChildren
+from executor.supervision.signal_names import signal_name
 from tree_gardener import Status
 
 if TYPE_CHECKING:
@@ -50,6 +54,7 @@ KEPT_PREFIXES: Final = ("PYTHONHASHSEED", "OPENBLAS_", "OMP_", "MKL_", "LP_", "R
                         "FASTRTPS_", "RCUTILS_", "AMENT_")  # fmt: skip
 HIDDEN: Final = ("evaluations/", "universes/", "robots/", "tests/")
 """Folders of the project that the actions never see."""
+EXIT_MSEC: Final = 1_000
 _STATUSES: Final = frozenset(status.name for status in Status)
 _LETTERS: Final = frozenset("SFRK")
 
@@ -79,10 +84,9 @@ class SealedRun(EvaluationRun):
         except _FailedError as failed:
             return self.outcome_of(failed.outcome, failed.why)
 
-    # --- setting up ---
-
     def set_up(self) -> None:
         """Makes the world, and the process of the actions beside it."""
+        self._stack.append(RunChildren().end)
         child = self._child = Child()
         self._stack.append(child.close)
         self.world = self.make_world(self._write_assets())
@@ -122,8 +126,6 @@ class SealedRun(EvaluationRun):
             raise _out_of_turn()
         self._remote.hear(answer.listeners, (), self._make_way)
 
-    # --- running ---
-
     def play(self, progress: Progress | None, watch: Watch | None) -> Report:
         """Ticks until the end of the run, and returns its report."""
         del watch  # measurements watch unsealed runs
@@ -134,8 +136,6 @@ class SealedRun(EvaluationRun):
             if not isinstance(answer, Ticked):
                 raise _out_of_turn()
             last = self._heed(answer)
-            if answer.is_broken:
-                return self.report
             self.node.poll()
             if progress is not None and number % max(1, round(self._tick_hz)) == 0:
                 progress(self.world.time_s)
@@ -184,8 +184,6 @@ class SealedRun(EvaluationRun):
             if type_name(kind) == type_:
                 self.node.make_way(topic, kind)
 
-    # --- what the judge asks ---
-
     def switch_action(self, tree_id: str, node_id: str, *, on: bool) -> None:
         """Makes an action raise, or ends that."""
         with contextlib.suppress(LinkClosedError):  # its end is heard next
@@ -219,14 +217,13 @@ class Child:
 
     def __init__(self) -> None:
         uid = free_uid()
-        self._folder = Path(tempfile.mkdtemp(prefix="bt-studio-sealed-"))
+        self._folder = Path(tempfile.mkdtemp(prefix=SCRATCH_PREFIX))
         above = self._folder.parent
         if not above.stat().st_mode & 1:  # that of the run, which only its own user may enter
             above.chmod(above.stat().st_mode | 0o11)
         if uid is not None:
             os.chown(self._folder, uid, uid)
         ours, theirs = socket.socketpair()
-        self.link = Link(ours)
         command = [sys.executable, "-P", "-m", "executor.evaluation.sealed.actions"]
         command += ["--link-fd", str(theirs.fileno()), "--scratch", str(self._folder)]
         with theirs:
@@ -240,17 +237,21 @@ class Child:
                 cwd="/",
                 start_new_session=True,
             )
+        self._process_fd = os.pidfd_open(self._process.pid)
+        self.link = Link(ours, self._process_fd)
 
     def how_it_ended(self) -> str:
         """Returns how the process has ended, in words; ends it if it still runs."""
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(1.0)
-        if self._process.poll() is None:
+        exit_ = select.poll()
+        exit_.register(self._process_fd, select.POLLIN)
+        exit_.poll(EXIT_MSEC)
+        # It is not reaped here: its number stays its own until `close` has ended its group.
+        found = os.waitid(os.P_PIDFD, self._process_fd, os.WEXITED | os.WNOWAIT | os.WNOHANG)
+        if found is None:
             return "the process of the actions has closed its link"
-        status = self._process.returncode
-        if status < 0:
-            return f"the process of the actions ended with {signal.Signals(-status).name}"
-        return f"the process of the actions ended by itself with status {status}"
+        if found.si_code != os.CLD_EXITED:
+            return f"the process of the actions ended with {signal_name(found.si_status)}"
+        return f"the process of the actions ended by itself with status {found.si_status}"
 
     def close(self) -> None:
         """Ends the process with all that it has started, and removes its folder."""
@@ -258,6 +259,7 @@ class Child:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
+        os.close(self._process_fd)
         shutil.rmtree(self._folder, ignore_errors=True)
 
 

@@ -62,7 +62,7 @@ def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None], cluster
         cluster: the address of a Ray cluster that runs the seeds; "" is this machine.
     """
     try:
-        plan = _plan(job)
+        plan, notes = _plan(job)
         workers = 1 if job.record_to else _workers(cluster)
     except _RefusedError as refused:
         say(Refused(str(refused)))
@@ -78,6 +78,7 @@ def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None], cluster
             sequential=evaluation.until is not None,
             duration_s=evaluation.duration_s,
             plan=plan_of(plan.universe),
+            notes=notes,
         )
     )
     try:
@@ -183,14 +184,15 @@ def shortened(outcome: Outcome) -> str:
     return dataclasses.replace(short, items=[], measures={}, path=[]).to_line()
 
 
-def _plan(job: StartEvaluation) -> Plan:
-    """Reads the project and its evaluation.
+def _plan(job: StartEvaluation) -> tuple[Plan, str]:
+    """Reads the project and its evaluation; also returns a line for each launch node that is left out.
 
     Raises:
         _RefusedError: it cannot be run.
     """
     from executor.evaluation.plan import EvaluationError, make_plan, sealed  # noqa: PLC0415 - as above
     from executor.evaluation.sealed.confine import SealError  # noqa: PLC0415 - as above
+    from executor.headless.left_out import left_out  # noqa: PLC0415 - as above
     from executor.universes.document import DocumentError  # noqa: PLC0415 - as above
     from translator import TranslatorError, load  # noqa: PLC0415 - as above
     from translator.archive import read_zip  # noqa: PLC0415 - as above
@@ -198,6 +200,7 @@ def _plan(job: StartEvaluation) -> Plan:
     try:
         files = read_zip(base64.b64decode(job.archive_base64, validate=True))
         plan = make_plan(load(files), job.evaluation)
+        notes = "\n".join(left_out(files))
         plan = sealed(plan) if job.sealed else plan
     except binascii.Error as error:
         raise _RefusedError(f"the project is no base64: {error}") from error
@@ -209,7 +212,7 @@ def _plan(job: StartEvaluation) -> Plan:
     evaluation = plan.evaluation
     if runs := job.runs or len(job.seeds):
         evaluation = evaluation.model_copy(update={"until": None, "runs": runs})
-    return dataclasses.replace(plan, evaluation=evaluation)
+    return dataclasses.replace(plan, evaluation=evaluation), notes
 
 
 def _receive(channel: socket.socket) -> StartEvaluation | None:

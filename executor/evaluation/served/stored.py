@@ -61,6 +61,7 @@ def report(about: dict[str, Any], newer: Sequence[Outcome], older: Sequence[Outc
         path=about["path"],
         evaluation=about["evaluation"],
         pairs=pair(older, newer) if older else None,
+        notes=about["notes"],
     )
     return report_html({**data, "plan": about["plan"]})
 

@@ -88,8 +88,6 @@ class Tables:
             self._counter.add(size, number)
             yield number, row
 
-    # --- inside ---
-
     def _limit(self, longest: int) -> None:
         database = self._database
         database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, longest)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from executor.recorder.outside.steps import Change, Step
     from executor.recorder.outside.tree_xml import LoggedTree
 
-__all__ = ["MOST_BACK_NS", "EntryRow", "TimeLine", "TreeLog", "TreeWriter"]
+__all__ = ["LONGEST_NS", "MOST_BACK_NS", "EntryRow", "TimeLine", "TreeLog", "TreeWriter"]
 
 MOST_BACK_NS: Final = 1_000_000_000
 LONGEST_NS: Final = 10_000_000 * 1_000_000_000
@@ -147,8 +147,6 @@ class TreeLog:
         """Ends the tick that is open."""
         if (ended := self._steps.end()) is not None:
             self._step(ended)
-
-    # --- inside ---
 
     def _step(self, step: Step) -> None:
         self._ticks += 1

@@ -112,8 +112,6 @@ class _Reader:
         facts.trail, facts.boxes = self._places.trail(), self._places.boxes()
         return facts
 
-    # --- inside ---
-
     def _message(self, message: Message) -> None:
         facts = self._facts
         facts.from_ns = min(facts.from_ns, message.log_time) if facts.messages else message.log_time

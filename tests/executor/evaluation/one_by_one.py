@@ -52,6 +52,12 @@ class Cells:
         self._in_step = True
         return read_outcome(line)
 
+    @property
+    def pid(self) -> int:
+        """The process that has answered."""
+        assert self._process is not None
+        return self._process.pid
+
     def _ready(self) -> subprocess.Popen[str]:
         if self._process is not None and (not self._in_step or self._process.poll() is not None):
             self._kill()

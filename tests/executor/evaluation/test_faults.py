@@ -83,9 +83,6 @@ def test_names():
     assert "/laser" in topics_of(load_robot("turtle2"), {"scan": "/laser"})
 
 
-# --- what the topics carry ---
-
-
 @pytest.fixture(scope="module")
 def record(tmp_path_factory):
     """Runs faults in a process of its own, and returns the outcome with the messages of the recording."""

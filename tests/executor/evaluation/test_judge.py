@@ -1,10 +1,15 @@
 """The judge on trajectories made by hand."""
 
+import contextlib
+import io
+
+import numpy as np
 import pytest
 
 from executor.evaluation.document import Judge
 from executor.evaluation.judge import FAILURE, SUCCESS, JudgeError, Referee, make_items
 from executor.evaluation.truth import Bump, Sample, Truth
+from tests.fakes.hostile_values import VALUES
 
 AREAS = {
     "door": ((4.0, -1.0), (6.0, -1.0), (6.0, 1.0), (4.0, 1.0)),
@@ -132,3 +137,19 @@ def test_a_function_that_returns_something_else_is_an_error(returned, words):
     )
     with pytest.raises(JudgeError, match=words):
         track.run([0])
+
+
+def test_a_function_may_return_numbers_of_numpy():
+    criterion = {"python": "judge.py:quality", "at_least": {"calm": 0}}
+    track = Track([criterion], duration_s=0, function=lambda _: {"calm": np.float32(0.5), "n": np.int64(3)})
+    assert outcome(track.run([0])) == (SUCCESS, 0)
+    assert track.referee.numbers() == {"calm": 0.5, "n": 3.0}
+
+
+def test_any_value_that_a_function_returns_is_judged_or_an_error():
+    criterion = {"python": "judge.py:quality", "at_least": {"calm": 0}}
+    for value in VALUES:
+        for returned in (value, {"calm": value}, {"calm": 1, "other": value}):
+            track = Track([criterion], duration_s=0, function=lambda _, returned=returned: returned)
+            with contextlib.suppress(JudgeError), contextlib.redirect_stdout(io.StringIO()):
+                track.run([0])

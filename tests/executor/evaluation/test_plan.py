@@ -55,11 +55,6 @@ def test_what_the_judge_names_must_exist(judge, words):
     ("text", "others", "words"),
     [
         ("universe: none\n" + GOOD, {}, "universe none"),
-        (
-            GOOD,
-            {"launch__nodes.launch.xml": "<launch/>"},
-            "launch/nodes.launch.xml:1:1: a project with launch files",
-        ),
     ],
 )
 def test_a_project_that_cannot_be_evaluated_says_why(text, others, words):

@@ -9,6 +9,7 @@ from executor.evaluation.outcome import Outcome
 from executor.evaluation.report import command_of, coverage_of, embedded, plan_of, report_data, report_html
 from executor.evaluation.summary import Summary, pair
 from executor.universes import parse_universe
+from executor.universes.version import version_of
 from tests.executor.evaluation.projects import WORLD
 
 HOSTILE = "</script><img src=x onerror=alert(1)>\u2028&"
@@ -89,6 +90,7 @@ def test_the_plan_of_the_world_has_outlines_and_areas():
     assert len(plan["outlines"]) == 2  # wall and crate; the carpet is not solid
     assert plan["outlines"][0][0] == [2.9, -3.0]
     assert [area["name"] for area in plan["areas"]] == ["start", "ahead", "behind"]
+    assert plan["universe"] == {"name": "Yard", "version": version_of(parse_universe(WORLD))}
 
 
 def test_a_comparison_is_shown():

@@ -6,6 +6,7 @@ import pytest
 
 from executor.evaluation.outcome import Outcome
 from executor.evaluation.plan import make_plan
+from executor.evaluation.report import world_of
 from executor.evaluation.results import PART, RUNS, Results, ResultsError, inputs_of, kept_outcomes
 from tests.executor.evaluation.projects import project
 
@@ -66,3 +67,15 @@ def test_a_folder_without_results_says_so(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ResultsError, match="cannot be written"):
         Results(tmp_path / "file" / "in").begin({})
+
+
+def test_results_of_another_version_of_the_universe_are_not_continued(tmp_path):
+    plan = make_plan(project(GOOD), "main")
+    results = Results(tmp_path)
+    for version in (world_of(plan.universe)["version"], "00000000"):
+        results.begin({"inputs": inputs_of(plan), "universe": version, "fingerprints": [MINE]})
+        if version == "00000000":
+            with pytest.raises(ResultsError, match="version 00000000 of the universe “Yard”"):
+                kept_outcomes(results, plan, MINE)
+        else:
+            assert kept_outcomes(results, plan, MINE)[0] == []

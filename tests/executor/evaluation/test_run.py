@@ -94,7 +94,7 @@ def test_an_exception_is_an_error_with_its_line(tmp_path, cells):
     found = cells(judged(tmp_path, "{never: collision}", action=RAISES))
     assert found.outcome == "error"
     assert found.why == "actions/Drive.py:13:1: go: ValueError: no way"
-    found = cells(judged(tmp_path, "{never: collision}", action="import nothing_here\n" + DRIVE))
+    found = cells(judged(tmp_path, "{never: collision}", action="__import__('nothing_here')\n" + DRIVE))
     assert found.outcome == "error"
     assert "nothing_here" in found.why
 

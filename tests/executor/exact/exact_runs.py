@@ -19,6 +19,7 @@ from executor.manager.programs import session_programs
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.recorder_messages import BeginRun, StartRecorder, decode_from_recorder
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair
+from tests.executor.forks import FORKS, Fork
 from tests.executor.session_client import ROOT, app_zip
 from translator import load, to_app_zip
 
@@ -108,9 +109,16 @@ def start_message(
     return StartApplication(str(folder), 20.0, on_finish="repeat", seed=seed, world=world, **more)
 
 
-def _started(program: Program, decode: Any) -> tuple[subprocess.Popen[bytes], Channel[Any, Any]]:
+def _started(
+    program: Program, decode: Any, *, is_fresh: bool
+) -> tuple[subprocess.Popen[bytes] | Fork, Channel[Any, Any]]:
     ours, theirs = socket_pair()
     with theirs:
+        if not is_fresh:
+            environment = {**os.environ, **program.environment}
+            files = (0, 1, 2, theirs.fileno())
+            fork = FORKS.start(program.arguments[-1], ["--channel-fd", "3"], environment, *files)
+            return fork, Channel(ours.detach(), decode)
         process = subprocess.Popen(
             [*program.arguments, "--channel-fd", str(theirs.fileno())],
             cwd=ROOT,
@@ -122,11 +130,17 @@ def _started(program: Program, decode: Any) -> tuple[subprocess.Popen[bytes], Ch
 
 @dataclass
 class ExactRun:
-    """A process of an exact run, and what it said."""
+    """A process of an exact run, and what it said.
+
+    The first run is a fresh process. One that is made again is the fork of a warm process, so it has other
+    addresses.
+    """
 
     start: StartApplication
     recordings: Path | None = None
     """The folder in which a recorder records the run; None for no recorder."""
+    is_fresh: bool | None = None
+    """Whether the process is a fresh one; None leaves that to whether the run is made again."""
     said: list[Any] = field(default_factory=list)
     inputs: list[Input] = field(default_factory=list)
     prints: bytearray = field(default_factory=bytearray)
@@ -134,13 +148,16 @@ class ExactRun:
     def __post_init__(self) -> None:
         programs = session_programs(3)
         program, environment = programs["exact"], dict(programs["exact"].environment)
-        self._recorder: tuple[subprocess.Popen[bytes], Channel[Any, Any]] | None = None
+        self._recorder: tuple[subprocess.Popen[bytes] | Fork, Channel[Any, Any]] | None = None
+        is_fresh = self.start.replay is None if self.is_fresh is None else self.is_fresh
         if self.recordings is None:
             del environment[ADDRESS_VARIABLE]
         else:
-            self._recorder = _started(programs["recorder"], decode_from_recorder)
+            self._recorder = _started(programs["recorder"], decode_from_recorder, is_fresh=False)
             self._recorder[1].send(StartRecorder(str(self.recordings), is_whole=True))
-        self.process, self.channel = _started(replace(program, environment=environment), decode_from_exact)
+        self.process, self.channel = _started(
+            replace(program, environment=environment), decode_from_exact, is_fresh=is_fresh
+        )
         self.channel.send(self.start)
         ends = (child_messages.ApplicationReady, child_messages.Fault, child_messages.TickSource)
         self.until(lambda m: isinstance(m, ends))

@@ -180,7 +180,7 @@ def test_a_state_of_the_world_that_differs_in_one_thing_is_found() -> None:
     projects = (random_project(random.Random(seed)) for seed in itertools.count())  # noqa: S311 - a test
     project = next(each for each in projects if not each.types & {"Drive", "Late"})
     with unpacked(project, 1) as start:
-        before = ExactRun(start)
+        before = ExactRun(start, is_fresh=False)
         before.run_ticks(20)
         before.pause_after_tick()
         state = before.end()
@@ -192,7 +192,7 @@ def test_a_state_of_the_world_that_differs_in_one_thing_is_found() -> None:
 
 def from_state(start: StartApplication, state: bytes) -> bytes:
     """Returns the fingerprints of the first ticks of a run in a world with this state."""
-    run = ExactRun(structs.replace(start, world_state=state))
+    run = ExactRun(structs.replace(start, world_state=state), is_fresh=False)
     run.run_ticks(FEW)
     run.pause()
     run.end()

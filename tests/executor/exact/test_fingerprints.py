@@ -6,9 +6,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from executor.exact.fingerprints import Fingerprints
 from executor.replay_messages import FINGERPRINT_BYTES
+from tests.fakes.hostile_values import VALUES
 from tree_gardener import BlackboardChange, Status
 from tree_gardener.observe import TickChanges
 
@@ -70,3 +72,13 @@ def test_the_order_of_changes_does_not_count():
 def test_a_value_without_a_plain_form_counts_by_its_type():
     assert prints_of(value=object()) == prints_of(value=object())
     assert prints_of(value=[1]) != prints_of(value={})
+
+
+@pytest.mark.parametrize("number", range(len(VALUES)))
+def test_any_value_has_a_fingerprint_without_a_method_of_its_class(number: int) -> None:
+    assert len(prints_of(value=VALUES[number])) == FINGERPRINT_BYTES
+
+
+def test_numbers_of_numpy_and_large_ones_count_by_their_value() -> None:
+    assert prints_of(value=np.float64(1.5)) != prints_of(value=np.float64(2.5))
+    assert prints_of(value=10**6_000) != prints_of(value=10**6_000 + 1)

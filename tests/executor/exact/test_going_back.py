@@ -20,8 +20,9 @@ from executor.run_inputs import input_of
 from tests.budget import count
 from tests.executor.exact.exact_runs import ExactRun, app_folder, hashing_app, start_message
 from tests.executor.exact.test_process import exact, ready
-from tests.executor.session_client import ROOT, SessionClient, manager_process
+from tests.executor.session_client import ROOT, SessionClient
 from tests.executor.test_run_inputs import CHANGE, CHANGE_WORLD
+from tests.executor.warm import warm_session
 from translator import load, to_app_zip
 
 if TYPE_CHECKING:
@@ -219,8 +220,7 @@ def test_each_kind_of_change_by_hand_is_made_again_at_its_place() -> None:
 
 
 async def test_a_session_goes_back_runs_on_and_returns_to_where_it_was() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         assert await client.ask("subscribe", {"stream": "poses"}) == "ack"
         at = await ready(client, exact(hashing_app()))
         assert await client.ask("set_speed", {"speed": 5.0}) == "ack"
@@ -255,12 +255,10 @@ async def test_a_session_goes_back_runs_on_and_returns_to_where_it_was() -> None
         assert await client.ask("drop_branch", {"run": branch["run"]}) == "ack"
         await client.event("segment", lambda d: (d["run"], d["bytes"]) == (branch["run"], 0), after=at)
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def test_the_touch_of_a_crate_is_undone_by_a_changed_tree_from_before() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         near = exact(bump_and_go("0.3"))
         near["universe"]["speed"] = 0.0
         at = await ready(client, near)
@@ -292,7 +290,6 @@ async def test_the_touch_of_a_crate_is_undone_by_a_changed_tree_from_before() ->
         assert await client.ask("go_back", {"t": touched_s + 2.0}) == "ack"
         assert client.named("differs", at) == []
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 def bump_and_go(distance: str) -> str:

@@ -12,7 +12,8 @@ from executor.replay_messages import FINGERPRINT_BYTES, Replay
 from tests.executor.exact.exact_runs import ExactRun, app_folder, hashing_forward, start_message
 from tests.executor.exact.test_going_back import bump_and_go
 from tests.executor.exact.test_process import exact, ready
-from tests.executor.session_client import SessionClient, manager_process
+from tests.executor.session_client import SessionClient
+from tests.executor.warm import warm_session
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -153,8 +154,7 @@ def test_a_module_that_an_action_imports_is_shown_too() -> None:
 
 
 async def test_a_session_shows_the_source_of_a_tick_and_continues() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (manager, client):
         at = await ready(client, exact(bump_and_go("1.0")))
         await client.event("tick", lambda d: d["n"] > 60, after=at)
         ticks = [each for each in client.events if each["command"] == "tick"]
@@ -187,4 +187,3 @@ async def test_a_session_shows_the_source_of_a_tick_and_continues() -> None:
         assert await client.ask("stop_source", {"job": "c3"}) == "ack"
         assert "stopped" in (await client.event("tick_source", after=at))["data"]["problem"]
         assert await client.ask("disconnect") == "ack"
-        await client.close()

@@ -22,7 +22,8 @@ from executor.manager.manager import Manager, ManagerSettings
 from executor.manager.programs import session_programs
 from executor.recorder.cdr import decode
 from executor.supervision.copies import SNAPSHOT_NAME
-from tests.executor.session_client import ROOT, TOKEN, SessionClient, app_zip, manager_process, run_data
+from tests.executor.session_client import ROOT, TOKEN, SessionClient, app_zip, run_data
+from tests.executor.warm import warm_session
 from tests.processes import with_word
 
 if TYPE_CHECKING:
@@ -202,7 +203,7 @@ async def ready(client: SessionClient, data: dict[str, Any]) -> int:
 
 
 ENDS = {
-    "import ctypes; ctypes.string_at(0)": "SIGSEGV",
+    "import ctypes; ctypes.string_at(0)": "crashed",
     "import os; os._exit(3)": "exit code 3",
     "raise ValueError('boo')": "boo",
 }
@@ -215,8 +216,7 @@ LATE = "        self.count = getattr(self, 'count', 0) + 1\n        if self.coun
 
 
 async def test_what_an_action_does_ends_the_run_and_not_the_session():
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (manager, client):
         for line, words in ENDS.items():
             at = await ready(client, exact(app_zip(Forward=forward(LATE.format(line)))))
             fault = await client.event("fault", after=at)
@@ -239,12 +239,10 @@ async def test_what_an_action_does_ends_the_run_and_not_the_session():
         at = await ready(client, exact())
         assert await client.ask("pause") == "ack"
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def test_the_world_goes_to_the_run_and_comes_back():
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         assert await client.ask("subscribe", {"stream": "poses"}) == "ack"
         await ready(client, exact())
         await client.until(lambda: (client.robot_position() or [0])[0] > 0.3)
@@ -263,17 +261,14 @@ async def test_the_world_goes_to_the_run_and_comes_back():
         assert await client.ask("pause") == "ack"
         assert (await client.ask("move_body", {"id": "ghost", "pose": [0] * 6}))["code"] == "bad_request"
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def test_a_live_run_follows_an_exact_one():
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (manager, client):
         await ready(client, exact())
         at = await ready(client, run_data())
         await client.event("tick", lambda d: d["n"] > 5, after=at)
         assert with_word(process.__name__, psutil.Process(manager.pid).children()) == []
-        await client.close()
 
 
 def test_its_hashes_are_those_of_a_run_in_lock_step():

@@ -281,6 +281,7 @@ async def test_a_run_with_a_thread_of_its_own_has_no_snapshots_and_says_why() ->
             assert len(it.of(FIRST, child_messages.SnapshotTaken)) == number
 
 
+@pytest.mark.kills
 async def test_nothing_is_left_when_the_manager_is_killed() -> None:
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open()

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.executor.application.test_python_debugger import ADDS, FILE, PROGRAM, Debugger
+from tests.executor.application.python.test_debugger import ADDS, FILE, PROGRAM, Debugger
 from tests.executor.exact.exact_runs import hashing_app
 from tests.executor.exact.test_going_back import hashes, stepped
 from tests.executor.exact.test_process import exact, ready
-from tests.executor.session_client import SessionClient, manager_process
+from tests.executor.warm import warm_session
+
+if TYPE_CHECKING:
+    from tests.executor.session_client import SessionClient
 
 pytestmark = pytest.mark.simulation
 
@@ -31,8 +34,7 @@ async def back(client: SessionClient) -> int:
 
 
 async def test_a_paused_run_goes_back_tick_by_tick_and_makes_them_again_as_they_were() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         at = await ready(client, exact(hashing_app()))
         first = await stepped(client, at, 30)  # three single ticks
         last = max(ticks(client, at))
@@ -47,12 +49,10 @@ async def test_a_paused_run_goes_back_tick_by_tick_and_makes_them_again_as_they_
         assert max(ticks(client, at)) == last
         assert first.items() <= again.items()
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def test_at_a_breakpoint_it_leads_to_the_tick_before_and_at_last_to_the_begin() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         assert await client.ask("set_breakpoints", {"breakpoints": [FORWARD]}) == "ack"
         at = len(client.events)
         assert await client.ask("run", exact(hashing_app())) == "ack"
@@ -78,7 +78,6 @@ async def test_at_a_breakpoint_it_leads_to_the_tick_before_and_at_last_to_the_be
         assert (await client.ask("tick_back"))["code"] == "first_tick"
         assert client.state == "held"
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def held_in_python(client: SessionClient, condition: str) -> tuple[Debugger, dict[str, Any]]:
@@ -93,11 +92,10 @@ async def held_in_python(client: SessionClient, condition: str) -> tuple[Debugge
 
 
 async def test_a_program_at_a_line_of_python_goes_back_and_its_debugger_connects_again() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         await held_in_python(client, "self.n == 40")  # in tick 41
         at = len(client.events)
-        assert await back(client) == 39
+        assert await back(client) == 39, "the session knew of all ticks that had ended"
         debugger = Debugger(client)
         debugger.seq = 100
         await debugger.event("terminated", at)
@@ -108,12 +106,10 @@ async def test_a_program_at_a_line_of_python_goes_back_and_its_debugger_connects
         await client.comes_to("held")
         assert await back(client) == 39, "it is held in the same tick again"
         assert await client.ask("disconnect") == "ack"
-        await client.close()
 
 
 async def test_after_a_change_by_hand_the_run_goes_back_only_to_before_it() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         debugger, stop = await held_in_python(client, "self.n == 40")
         frame = await debugger.top(stop)
         this = (await debugger.locals(frame))["self"]["variablesReference"]
@@ -152,4 +148,3 @@ async def test_after_a_change_by_hand_the_run_goes_back_only_to_before_it() -> N
         assert client.named("repeatable_runs")[-1]["by_hand"] == {run: by_hand_s}
         assert await back(client) <= 39
         assert await client.ask("disconnect") == "ack"
-        await client.close()

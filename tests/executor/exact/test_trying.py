@@ -18,7 +18,7 @@ from executor.replay_messages import FINGERPRINT_BYTES, Replay
 from tests.executor.exact.exact_runs import ExactRun, app_folder, start_message
 from tests.executor.exact.test_going_back import bump_and_go
 from tests.executor.exact.test_process import exact, ready
-from tests.executor.session_client import SessionClient, manager_process
+from tests.executor.warm import warm_session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -51,7 +51,7 @@ def test_a_continuation_that_raises_or_ends_is_one_row() -> None:
 
     outcomes = {each.index: each for each in forks(bad, 3)}
     assert [outcomes[index].end for index in range(3)] == ["died", "died", "running"]
-    assert "SIGKILL" in outcomes[0].message
+    assert "ended at once" in outcomes[0].message
     assert "exit code 1" in outcomes[1].message
     assert (outcomes[2].job, outcomes[2].ticks) == ("a1", 2)
 
@@ -173,7 +173,7 @@ def test_a_continuation_that_is_killed_is_one_row(past: tuple[Path, Replay]) -> 
     run.until(lambda m: isinstance(m, TryOutcome))
     (outcome,) = run.said_of(TryOutcome)
     assert (outcome.end, outcome.index) == ("died", 0)
-    assert "SIGKILL" in outcome.message
+    assert "ended at once" in outcome.message
     run.process.kill()
     run.process.wait(30)
     run.kill()
@@ -203,8 +203,7 @@ def test_the_fault_of_a_continuation_is_reported() -> None:
 
 
 async def test_a_session_tries_values_from_before_the_touch_of_a_crate() -> None:
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (_, client):
         near = exact(bump_and_go("0.3"))
         near["universe"]["speed"] = 0.0
         at = await ready(client, near)
@@ -247,4 +246,3 @@ async def test_a_session_tries_values_from_before_the_touch_of_a_crate() -> None
         assert (await client.event("trying_ended", after=at))["data"]["end"] == "cancelled"
         assert await client.ask("resume") == "ack"
         assert await client.ask("disconnect") == "ack"
-        await client.close()

@@ -41,6 +41,7 @@ MESSAGES: dict[str, dict[str, Any]] = {
         "removed": [False, True],
         "writer_uid": [2, 2**32 - 1],
     },
+    "Forced": {"stamp": T_NS, "generation": 2, "tick": 7, "uid": [2, 3]},
     "Log": {"stamp": T_NS, "source": "action", "level": "info", "text": "The way is free", "uid": 2},
     "Profile": {
         "stamp": T_NS,

@@ -9,7 +9,7 @@ from executor.recorder.definitions import DefinitionError, Field, fields_of, ful
 
 def test_each_of_our_types_begins_with_its_time():
     names = names_of_ours()
-    assert len(names) == 12
+    assert len(names) == 13
     assert {fields_of(name)[0] for name in names} == {
         Field("stamp", "builtin_interfaces/Time", is_list=False)
     }

@@ -12,7 +12,7 @@ from mcap.reader import make_reader
 from executor.messages import Poses
 from executor.recorder.joining import join_newest
 from tests.budget import count
-from tests.executor.recorder.test_process import child_of, joined, joined_with, running
+from tests.executor.recorder.test_process import child_of, joined, joined_with, running, running_alone
 from tests.executor.session_client import SessionClient, manager_process, run_data
 
 if TYPE_CHECKING:
@@ -66,9 +66,10 @@ async def test_a_killed_source_loses_less_than_a_second(kind: str, topic: str, t
         assert last_s(found, topic) >= seen - LOST_S
 
 
+@pytest.mark.kills
 @pytest.mark.parametrize("turn", range(count("executor_recorder_kills")))
 async def test_a_killed_recorder_loses_less_than_a_second_and_the_run_continues(turn: int) -> None:
-    async with running() as (manager, client):
+    async with running_alone() as (manager, client):
         seen = await watched(client, turn)
         segment = client.named("segment")[-1]
         at = len(client.events)
@@ -80,12 +81,13 @@ async def test_a_killed_recorder_loses_less_than_a_second_and_the_run_continues(
             "segment", lambda d: d["number"] > segment["number"] and d["to_t"] > seen, after=at
         )
         await client.event("tick", after=len(client.events))
-        found = await joined_with(manager, client, segment["run"], "/bt/log", "recorder was killed")
+        found = await joined_with(manager, client, segment["run"], "/bt/log", "recorder was ended at once")
         assert last_s(found, "/world/poses", seen) >= seen - LOST_S
         numbers = [fields["number"] for topic, _, fields in found if topic == "/bt/tick"]
         assert numbers == sorted(set(numbers))
 
 
+@pytest.mark.kills
 @pytest.mark.parametrize("turn", range(count("executor_recorder_kills")))
 async def test_a_killed_manager_loses_less_than_two_seconds(tmp_path: Path, turn: int) -> None:
     async with manager_process(env={"TMPDIR": str(tmp_path)}) as manager:
@@ -101,8 +103,9 @@ async def test_a_killed_manager_loses_less_than_two_seconds(tmp_path: Path, turn
         await client.close()
 
 
+@pytest.mark.kills
 async def test_a_full_disk_ends_the_recording_and_not_the_run() -> None:
-    async with running() as (manager, client):
+    async with running_alone() as (manager, client):
         run = client.named("segment")[-1]["run"]
         at = len(client.events)
         # The kernel refuses to write more into a file, as on a full disk.

@@ -144,3 +144,22 @@ def test_changed_bytes_are_read_or_refused_in_words(data):
 
 
 WHOLE = whole()
+
+
+def test_a_chunk_is_read_again_by_its_offset():
+    file = io.BytesIO()
+    writer = Writer(file, chunk_size=40)
+    writer.start()
+    channel = writer.register_channel("/x", "json", 0)
+    for t_ns in range(6):
+        writer.add_message(channel, t_ns, b"{}" * 10, t_ns)
+    writer.finish()
+    reader = RecordReader(io.BytesIO(file.getvalue()), "f.mcap", Limits(messages=6))
+    places: dict[int, list[int]] = {}
+    for record in reader:
+        if isinstance(record, Message):
+            places.setdefault(reader.read_to, []).append(record.log_time)
+    assert len(places) > 1
+    for place, times in reversed(places.items()):
+        assert [r.log_time for r in reader.at(place) if isinstance(r, Message)] == times
+    assert list(reader.at(len(file.getvalue()) - 2)) == []

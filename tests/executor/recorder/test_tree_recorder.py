@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 
+from py_trees.blackboard import Blackboard
+
 from executor.recorder.tree_recorder import TreeRecorder
 from executor.recorder.values import NO_WRITE
-from tree_gardener import TickError, Tree
+from tree_gardener import Status, TickError, Tree
+from tree_gardener.debugging import Force
+from tree_gardener.debugging.debugger import Debugger
 
 XML = """<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">
 <Sequence name="both">
 <Script code="a := 1; b := 'x'"/><Script code="a := 2"/><AlwaysFailure/>
 </Sequence></BehaviorTree></root>"""
+ONE = '<root BTCPP_format="4"><BehaviorTree ID="M"><AlwaysSuccess/></BehaviorTree></root>'
 
 
 def recorded(xml=XML):
@@ -145,3 +150,41 @@ def test_a_hold_of_the_debugger_is_left_out_of_the_duration_of_its_tick():
     held, after = (tick["duration_ms"] for tick in of(said, "/bt/tick"))
     assert held == 0.0
     assert after > 0.0
+
+
+def test_keys_of_py_trees_are_in_ticks_and_keyframes_without_a_writer():
+    Blackboard.clear()
+    try:
+        Blackboard.set("/robot/speed", 0.5)
+        tree, recorder, said = recorded(ONE)
+        tree.tick_once()
+        Blackboard.set("/robot/speed", object())
+        tree.tick_once()
+        recorder.keyframe(1, b"")
+    finally:
+        Blackboard.clear()
+    rows = [
+        (fields["tick"], *(fields[name][0] for name in ("scope", "key", "type", "value_json", "writer_uid")))
+        for fields in of(said, "/bt/blackboard")
+    ]
+    scope, key = "py_trees:/robot/", "speed"
+    assert rows == [
+        (1, scope, key, "double", "0.5", NO_WRITE),
+        (2, scope, key, "object", '{"preview":"?"}', NO_WRITE),
+    ]
+    kept = json.loads(of(said, "/bt/keyframe")[-1]["blackboard_json"])
+    assert kept == [[scope, key, "object", {"preview": "?"}]]
+
+
+def test_what_was_forced_is_recorded_before_its_tick():
+    tree, _, said = recorded()
+    debugger = Debugger(lambda _: None)
+    tree.debug(debugger)
+    script = next(node for node in tree.nodes if node.type == "AlwaysFailure")
+    debugger.force(Force(script.uid, Status.SUCCESS, once=True))
+    tree.tick_once()
+    tree.tick_once()
+    (forced,) = of(said, "/bt/forced")
+    assert (forced["tick"], forced["uid"]) == (1, [script.uid])
+    topics = [topic for topic, _, _ in said]
+    assert topics.index("/bt/forced") < topics.index("/bt/tick")

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.budget import count
+from tests.executor.forks import completed
 from tests.executor.recorder.page import segment, shown_by_page
 
 ROOT = Path(__file__).parents[3]
@@ -59,15 +57,7 @@ class Seen:
 @pytest.mark.parametrize("first", range(0, count("recorder_truth_runs"), AT_ONCE))
 def test_at_random_moments_of_random_runs_the_page_shows_what_was(tmp_path: Path, first: int) -> None:
     seeds = range(first, min(first + AT_ONCE, count("recorder_truth_runs")))
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.executor.recorder.truth_run", str(tmp_path), str(MOMENTS)]
-        + [str(seed) for seed in seeds],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = completed("tests.executor.recorder.truth_run", tmp_path, MOMENTS, *seeds)
     assert done.returncode == 0, done.stderr
     for seed in seeds:
         places = json.loads((tmp_path / f"{seed}.poses").read_text())

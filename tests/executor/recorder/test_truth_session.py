@@ -16,9 +16,11 @@ from executor.messages import Poses, RecordingPart
 from executor.stream.pose_codec import POSE_BYTES, unpack
 from tests.budget import count
 from tests.executor.recorder.page import segment, shown_by_page
+from tests.executor.recorder.test_process import runs_before
 from tests.executor.recorder.test_truth import MOMENTS, Seen, compare_poses, compare_scan, compare_tree
 from tests.executor.recorder.truth_app import random_app
-from tests.executor.session_client import TOKEN, SessionClient, manager_process, run_data
+from tests.executor.session_client import TOKEN, SessionClient, run_data
+from tests.executor.warm import warm_session
 from translator.package.zip import write_zip
 
 if TYPE_CHECKING:
@@ -38,21 +40,20 @@ pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
 @pytest.mark.parametrize("seed", range(1, 1 + count("recorder_truth_sessions")))
 async def test_at_random_moments_of_a_session_the_page_shows_what_was(tmp_path: Path, seed: int) -> None:
     app = base64.b64encode(write_zip(random_app(seed, tmp_path / "notes", raises=False))).decode()
-    async with manager_process() as manager:
-        client = await SessionClient(manager.ready["port"]).open()
+    async with warm_session() as (manager, client):
+        before = await runs_before(client)
         await client.ask("subscribe", {"stream": "poses", "max_hz": 60.0})
         data = run_data(app, universe="football", on_error="failure")
         data["universe"]["speed"] = SPEED
         assert await client.ask("run", data) == "ack"
-        await client.event("segment", lambda d: d["to_t"] > LASTS_S)
+        await client.event("segment", lambda d: d["run"] not in before and d["to_t"] > LASTS_S)
         assert await client.ask("pause") == "ack"
-        newest = {event["number"]: event for event in client.named("segment")}
+        newest = {event["number"]: event for event in client.named("segment") if event["run"] not in before}
         parts = [(await fetched(client, event, tmp_path), event) for _, event in sorted(newest.items())]
         kept = tmp_path / "kept.mcap"
         run = parts[0][1]["run"]
         kept.write_bytes(await asyncio.to_thread(download, manager.ready["port"], run))
         ways = ways_of([frame for _, frame in client.frames if isinstance(frame, Poses)])
-        await client.close()
     assert len(parts) > LASTS_S // 20
     at = moments(random.Random(seed), ways)  # noqa: S311 - reproducible moments, no secret
     seen = Seen(tmp_path / "notes")

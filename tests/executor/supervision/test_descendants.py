@@ -1,4 +1,4 @@
-"""Descendants of this process are found when they start, whole branches at a time, and no other process."""
+"""Descendants are found when they start, whole branches at a time; those of a run end with it."""
 
 import os
 import subprocess
@@ -37,3 +37,20 @@ def test_it_agrees_with_a_full_scan():
         found = {process.pid for process in Descendants().look()}
         assert found == {process.pid for process in psutil.Process().children(recursive=True)}
         child.communicate(b"\n")
+
+
+def test_what_a_run_starts_ends_with_it_and_nothing_else():
+    script = """if True:
+        import os, subprocess, sys
+        from executor.supervision.descendants import RunChildren, descendants
+        before = subprocess.Popen(["sleep", "600"])
+        children = RunChildren()
+        subprocess.Popen(["sleep", "600"])
+        subprocess.run("sleep 600 >/dev/null & setsid sleep 600 >/dev/null &", shell=True)
+        assert len(descendants(os.getpid())) == 4
+        children.end()
+        children.end()
+        assert descendants(os.getpid()) == [before.pid]
+        before.kill()
+    """
+    subprocess.run([sys.executable, "-c", script], check=True)

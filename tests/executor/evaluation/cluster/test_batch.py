@@ -29,7 +29,7 @@ def test_a_batch_returns_each_run_and_what_the_machine_is():
 def test_a_supervisor_that_fails_says_why():
     batch = run_batch(b"no parcel", [1], None)
     assert batch.done == ()
-    assert batch.lost.startswith("its supervisor ended with status 1: msgspec")
+    assert batch.lost.startswith("its supervisor ended with exit code 1: msgspec")
 
 
 @pytest.mark.simulation

@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.pool.accounting import descendants
 from executor.evaluation.pool.supervisor import Supervisor
 from executor.evaluation.pool.worker import Done
+from executor.supervision.descendants import descendants
 from tests.budget import count
 
 SEEDS = count("evaluation_pool_runs")

@@ -4,7 +4,8 @@ import os
 import subprocess
 import sys
 
-from executor.evaluation.pool.accounting import descendants, usage
+from executor.evaluation.pool.accounting import SCRATCH_PREFIX, usage, written_bytes
+from executor.supervision.descendants import descendants
 
 BUSY = """import subprocess, sys
 child = subprocess.Popen([sys.executable, "-c", "import time; print(1, flush=True); time.sleep(60)"])
@@ -30,3 +31,14 @@ def test_a_family_is_found_and_counted():
         process.wait()
     assert usage([process.pid]) == (0, 0)
     assert descendants(process.pid) == []
+
+
+def test_what_sealed_processes_have_written_is_counted_alone(tmp_path):
+    scratch = tmp_path / f"{SCRATCH_PREFIX}1" / "app"
+    scratch.mkdir(parents=True)
+    (tmp_path / "of the run").write_bytes(bytes(1 << 20))
+    assert written_bytes(str(tmp_path)) == 0
+    for name in ("a", "b"):
+        (scratch / name).write_bytes(bytes(1 << 20))
+    assert 2 << 20 <= written_bytes(str(tmp_path)) < 3 << 20
+    assert written_bytes(str(tmp_path / "nothing here")) == 0

@@ -1,5 +1,6 @@
 """The pool: whatever a run does to itself is its own outcome, with any number of workers."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 
 from executor.evaluation.outcome import Outcome, read_outcome
 from executor.evaluation.pool.supervisor import threads_of_this_process
+from executor.supervision.scratch import LOCK, remove_abandoned
 from tests.budget import count
 
 ROOT = Path(__file__).parents[4]
@@ -18,9 +20,12 @@ pytestmark = pytest.mark.timeout(300)
 def pool(tmp_path, workers, how="calm"):
     once = tmp_path / "once"
     once.write_text("")
+    folder = tmp_path / "temporary"
+    folder.mkdir(exist_ok=True)
     done = subprocess.run(
         [sys.executable, "-m", "tests.executor.evaluation.pool.harmful", str(workers), how, str(once)],
         cwd=ROOT,
+        env=os.environ | {"TMPDIR": str(folder)},
         capture_output=True,
         text=True,
         check=True,
@@ -28,6 +33,10 @@ def pool(tmp_path, workers, how="calm"):
     )
     *lines, left = done.stdout.splitlines()
     assert left == "0", "processes are left behind"
+    for lock in folder.glob(f"*/{LOCK}"):
+        os.utime(lock, (0, 0))
+    remove_abandoned(folder)
+    assert list(folder.iterdir()) == [], "the next start does not remove what killed workers left"
     return lines
 
 

@@ -32,7 +32,7 @@ BROWSES = """
     kinds = {{type(each).__name__ for each in gc.get_objects()}}
     if kinds & {{"BulletWorld", "Truth", "Referee", "Plan"}}:
         found.append("the world")
-    other, hidden = os.getppid(), Path({hidden!r})
+    other, hidden = {other}, Path({hidden!r})
     for name in ("cmdline", "environ", "maps", "mem", "status"):
         try_("/proc", lambda: Path(f"/proc/{{other}}/{{name}}").open("rb"))
     libc = ctypes.CDLL(None)
@@ -66,6 +66,14 @@ WRITES = """
 LEAVES = """
     import os
     os._exit(0)
+"""
+FORKS = """
+    import os, signal
+    if os.fork() == 0:
+        os.setsid()
+        signal.alarm(60)
+        signal.pause()
+    os._exit(3)
 """
 
 

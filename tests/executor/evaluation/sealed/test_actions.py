@@ -8,6 +8,8 @@ from executor.evaluation.sealed.link import Failed, LinkClosedError, Tick  # iso
 
 import pytest  # isort: skip
 
+from tests.executor.tools.test_groups import unreaped  # isort: skip
+
 
 def test_a_place_is_one_line():
     assert place_of(Fault("ValueError: no")) == "ValueError: no"
@@ -17,7 +19,8 @@ def test_a_place_is_one_line():
 
 
 @pytest.mark.timeout(120)
-def test_a_message_out_of_turn_ends_the_process():
+def test_a_message_out_of_turn_ends_the_process(monkeypatch):
+    was_its_own = unreaped(monkeypatch)
     child = Child()
     try:
         child.link.send(Tick(0.0, []))
@@ -26,3 +29,4 @@ def test_a_message_out_of_turn_ends_the_process():
         assert "ended by itself with status" in child.how_it_ended()
     finally:
         child.close()
+    assert was_its_own == [True]

@@ -1,7 +1,9 @@
 """The link of a sealed run: messages arrive as they were, and hostile bytes are refused."""
 
+import os
 import socket
 import struct
+import subprocess
 import threading
 
 import pytest
@@ -44,6 +46,20 @@ def test_a_closed_end_is_an_error(pair):
         judge.receive_of_actions()
     with pytest.raises(LinkClosedError):
         judge.send(Tick(0.0, []))
+
+
+def test_the_end_of_a_process_closes_its_link_though_a_fork_of_it_holds_the_end(pair):
+    ended = subprocess.Popen(["true"])
+    process_fd = os.pidfd_open(ended.pid)
+    ours, fork = socket.socketpair()
+    with ours, fork:
+        judge = Link(ours, process_fd)
+        Link(fork).send(Ticked([1], []))
+        assert judge.receive_of_actions() == Ticked([1], [])
+        with pytest.raises(LinkClosedError):
+            judge.receive_of_actions()
+    os.close(process_fd)
+    ended.wait()
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 import os
 import socket
+import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -9,9 +11,10 @@ import pytest
 from executor.evaluation.sealed.run import environment
 from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.budget import count
-from tests.executor.evaluation.one_by_one import Cells
+from tests.executor.evaluation.one_by_one import CELLS, Cells
 from tests.executor.evaluation.projects import DRIVE, write
-from tests.executor.evaluation.sealed.attacks import BROWSES, LEAVES, WRITES, action
+from tests.executor.evaluation.sealed.attacks import BROWSES, FORKS, LEAVES, WRITES, action
+from tests.executor.evaluation.sealed.launchers import LAUNCHERS, SHOWN, STARTED, TO_SHOW
 
 ROOT = Path(__file__).parents[4]
 SEEDS = count("sealed_runs")
@@ -46,6 +49,15 @@ faults:
 """
 
 
+@contextmanager
+def cells_of(launcher, folder):
+    """Yields a process of `cells` as a launcher starts it, and where it has the folder."""
+    folder.chmod(0o755)
+    command = (sys.executable, "-m", "tests.executor.evaluation.sealed.launchers", launcher, *CELLS)
+    with Cells({**os.environ, **SINGLE_THREADED, SHOWN: str(folder)}, command) as started:
+        yield started, folder if launcher == "root" or os.getuid() != 0 else TO_SHOW
+
+
 @pytest.fixture(scope="module")
 def cells():
     with Cells({**os.environ, **SINGLE_THREADED}) as found:
@@ -70,12 +82,31 @@ def test_sealed_equals_unsealed_with_faults_and_waits(source, tmp_path, cells):
     assert cells(folder, seed=1, sealed=True).to_line() == found.to_line()
 
 
+@pytest.mark.parametrize("launcher", STARTED)
+def test_sealed_equals_unsealed_for_each_launcher(launcher, tmp_path):
+    folder = write(tmp_path, f"{HEAD}{FAULTS}judge: {{success: [{{never: collision}}]}}\n", action=WAITS)
+    with cells_of(launcher, folder) as (started, shown):
+        found = started(shown, seed=1)
+        assert found.seen
+        assert started(shown, seed=1, sealed=True).to_line() == found.to_line()
+
+
+@pytest.mark.parametrize("launcher", LAUNCHERS[:3:2])  # with and without a namespace of processes
+def test_what_an_action_starts_does_not_hold_the_link(launcher, tmp_path):
+    with cells_of(launcher, write(tmp_path, JUDGE, action=action(FORKS))) as (started, shown):
+        found = started(shown, sealed=True)
+    assert (found.outcome, found.why) == (
+        "crashed",
+        "the process of the actions ended by itself with status 3",
+    )
+
+
 def test_errors_have_the_same_places(tmp_path, cells):
     for number, source in enumerate(
         (
             DRIVE.replace("twist = Twist()", "raise ValueError('no way')"),
             DRIVE.replace("self.publisher = ", "self.publisher = nothing = 1 / 0 or "),
-            "import nothing_here\n" + DRIVE,
+            "__import__('nothing_here')\n" + DRIVE,
         )
     ):
         folder = write(tmp_path / str(number), JUDGE, action=source)
@@ -86,7 +117,8 @@ def test_errors_have_the_same_places(tmp_path, cells):
 
 def test_nothing_of_the_judge_is_in_reach_of_the_actions(tmp_path, cells):
     with socket.create_server(("127.0.0.1", 0)) as server:
-        values = {"hidden": str(tmp_path / "evaluations" / "main.yaml"), "port": server.getsockname()[1]}
+        hidden, port = tmp_path / "evaluations" / "main.yaml", server.getsockname()[1]
+        values = {"hidden": str(hidden), "port": port, "other": os.getpid()}
         folder = write(tmp_path, JUDGE, action=action(BROWSES, **values))
         found = cells(folder, sealed=True)
         assert (found.outcome, found.why.partition("RuntimeError: ")[2]) == ("error", "got: ")

@@ -41,13 +41,14 @@ judge: {success: [{never: collision}]}
 TREE_ALONE = QUICK.replace(b"{never: collision}", b"{tree: SUCCESS}")
 
 
-def archive(evaluation: bytes = QUICK) -> str:
+def archive(evaluation: bytes = QUICK, **more: bytes) -> str:
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as made:
         for path in sorted(EXAMPLE.rglob("*")):
             if path.is_file():
                 made.writestr(str(path.relative_to(EXAMPLE)), path.read_bytes())
-        made.writestr("evaluations/quick.yaml", evaluation)
+        for name, data in {"evaluations/quick.yaml": evaluation, **more}.items():
+            made.writestr(name, data)
     return base64.b64encode(out.getvalue()).decode()
 
 
@@ -101,6 +102,16 @@ def test_sealed_runs_come_to_the_same_outcomes():
     sealed = said(StartEvaluation(archive(), "quick", [5], [], sealed=True))
     assert {run.seed: run.line for run in sealed if isinstance(run, RunDone)} == plain
     assert isinstance(sealed[-1], EvaluationDone)
+
+
+@pytest.mark.simulation
+def test_launch_nodes_are_left_out_and_named():
+    launch = b"<launch>\n<node pkg='demo' exec='talker' name='talker'/>\n</launch>\n"
+    job = StartEvaluation(archive(**{"launch/robot.launch.xml": launch}), "quick", [], [], runs=1)
+    begun, *_, ended = said(job)
+    assert isinstance(begun, Started)
+    assert begun.notes.startswith("launch/robot.launch.xml:2:1: the launch node talker is left out: ")
+    assert isinstance(ended, EvaluationDone)
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ ABOUT = {
     "most": 10,
     "sequential": False,
     "plan": {"outlines": [], "areas": [{"name": "door", "corners": []}]},
+    "notes": ["launch/a.launch.xml:2:1: the launch node talker is left out"],
 }
 
 
@@ -46,4 +47,5 @@ def test_a_report_has_the_plan_of_the_world_and_the_comparison():
     assert page == report(ABOUT, NEWER, OLDER)
     assert '"areas":[{"name":"door"' in page
     assert '"only_older":[9]' in page
+    assert '"notes":["launch/a.launch.xml:2:1: the launch node talker is left out"]' in page
     assert report(ABOUT, NEWER, []).count('"against":null') == 1

@@ -85,10 +85,10 @@ def nav_message(changes: Any, *, with_number: bool = True) -> bytes:
 NAV = "nav2_msgs/msg/BehaviorTreeLog"
 
 
-def bag(messages: Any) -> bytes:
+def bag(messages: Any, **options: Any) -> bytes:
     """Returns an MCAP file with messages of (topic, type, time in ns, bytes)."""
     file = io.BytesIO()
-    writer = Writer(file)
+    writer = Writer(file, **options)
     writer.start(profile="ros2", library="rosbag2")
     channels: dict[Any, int] = {}
     for topic, kind, t_ns, data in messages:

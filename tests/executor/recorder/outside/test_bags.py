@@ -7,15 +7,18 @@ from typing import Any
 
 import pytest
 import zstandard
+from mcap.data_stream import RecordBuilder
+from mcap.records import Channel, Message, Schema
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from executor.recorder.cdr import encode
+from executor.recorder.outside import bags
 from executor.recorder.outside.bags import files_of_bag, is_bag
 from executor.recorder.outside.convert import convert_outside
 from executor.recorder.outside.errors import OutsideError
-from executor.recorder.reader import Limits
+from executor.recorder.reader import MAGIC, Limits
 from tests.executor.recorder.messages import MESSAGES
 from tests.executor.recorder.outside.logs import NAV, bag, bag_tables, converted, nav_message, read, results
 
@@ -63,6 +66,98 @@ def test_numbered_files_follow_each_other(tmp_path):
         (folder / f"bag_{number}.mcap").write_bytes(b"")
     (folder / "bag_1.mcap").symlink_to("/etc/passwd")
     assert [path.name for path in files_of_bag(folder)] == ["bag_2.mcap", "bag_9.mcap", "bag_10.mcap"]
+
+
+def test_files_that_were_packed_one_by_one_are_unpacked(tmp_path):
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    for number, rows in enumerate((MESSAGES_OF_BAG[:1], MESSAGES_OF_BAG[1:])):
+        (folder / f"bag_{number}.mcap.zstd").write_bytes(zstandard.compress(bag(rows)))
+    check(converted(folder, tmp_path))
+    table = bag_tables(tmp_path / "t.db3", MESSAGES_OF_BAG)
+    tables = tmp_path / "tables"
+    tables.mkdir()
+    (tables / "bag_0.db3.zstd").write_bytes(zstandard.compress(table.read_bytes()))
+    check(converted(tables, tmp_path))
+    (tables / "bag_0.db3").write_bytes(table.read_bytes())  # the recorder may leave it there
+    check(converted(tables, tmp_path))
+    assert [path.name for path in files_of_bag(tables)] == ["bag_0.db3"]
+
+
+def test_files_that_are_packed_in_order_of_their_numbers(tmp_path):
+    for number in (10, 9, 2):
+        (tmp_path / f"bag_{number}.db3.zstd").write_bytes(b"")
+    assert [path.name for path in files_of_bag(tmp_path)] == [f"bag_{n}.db3.zstd" for n in (2, 9, 10)]
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "text"),
+    [
+        ("bag_0.mcap.zstd", b"nonsense", "bag_0.mcap.zstd cannot be unpacked"),
+        ("bag_0.mcap.zstd", zstandard.compress(bytes(1 << 20)), "too large unpacked"),
+        ("bag_0.mcap.lz4", b"", "unpack them first"),
+        ("bag_0.db3.gz", b"", "unpack them first"),
+    ],
+)
+def test_packed_files_that_cannot_be_read_are_refused_by_name(name, data, text, tmp_path):
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(OutsideError, match=text):
+        convert_outside(tmp_path, io.BytesIO(), Limits(total_bytes=1 << 19))
+
+
+@pytest.mark.parametrize("step_ns", [10**8, 5 * 10**9])
+def test_messages_that_are_late_in_the_file_are_sorted_and_that_is_said(step_ns, tmp_path):
+    rows = [(*row[:2], WALL_NS + number * step_ns, row[3]) for number, row in enumerate(MESSAGES_OF_BAG)]
+    level = [
+        ("/level", "std_msgs/msg/Float64", WALL_NS + number * step_ns, b"\0\1\0\0" + bytes([number]) * 8)
+        for number in range(3)
+    ]
+    mixed = [rows[2], level[2], level[0], rows[0], rows[1], level[1]]
+    for source in (bag(mixed), bag_tables(tmp_path / "b.db3", mixed)):
+        said = converted(source, tmp_path)
+        ticks = [each.t_ns for each in said if each.topic in {"/bt/tick", "/level"}]
+        assert ticks == [number * step_ns for number in (0, 0, 1, 1, 2, 2)]
+        assert results(said) == {2: [2], 3: [3], 1: [3]}
+        (line,) = [each.fields["text"] for each in said if each.topic == "/bt/log"]
+        assert line.startswith(f"4 messages were up to {2 * step_ns * 1e-9:.3g} s late")
+    (tmp_path / "f.mcap").write_bytes(bag(mixed))
+    assert convert_outside(tmp_path / "f.mcap", io.BytesIO()).late == 4
+    assert convert_outside(bag_tables(tmp_path / "c.db3", rows), io.BytesIO()).late == 0
+
+
+LEVEL = ("/level", "std_msgs/msg/Float64", 0, b"\0\1\0\0" + bytes(8))
+LATE = [
+    (*row[:2], WALL_NS + number * 10**7, row[3])
+    for number, row in (
+        *zip((3, 0), MESSAGES_OF_BAG[:2], strict=True),
+        *((number, LEVEL) for number in (1, 2, 4, 6, 5, 8)),
+        (7, MESSAGES_OF_BAG[2]),
+    )
+]
+
+
+def test_chunks_of_several_files_give_what_sorting_in_parts_gives(tmp_path, monkeypatch):
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    for number, rows in enumerate((LATE[:5], LATE[5:])):
+        (folder / f"bag_{number}.mcap").write_bytes(bag(rows, chunk_size=100))
+    parts = converted(bag_tables(tmp_path / "b.db3", LATE), tmp_path)
+    # The storage of SQLite has no chunks, so it was sorted in parts.
+    monkeypatch.setattr(bags, "in_order", None)
+    assert converted(folder, tmp_path) == parts
+    assert [each.t_ns for each in parts if each.topic == "/level"] == [n * 10**7 for n in (1, 2, 4, 5, 6, 8)]
+
+
+def test_a_channel_that_changes_its_topic_keeps_what_was_said_then(tmp_path):
+    builder = RecordBuilder()
+    for number, (topic, kind, t_ns, data) in enumerate(LATE):
+        name = topic if number != 2 else "/other"
+        Schema(id=1, name=kind, encoding="ros2msg", data=b"").write(builder)
+        Channel(id=1, topic=name, message_encoding="cdr", metadata={}, schema_id=1).write(builder)
+        Message(channel_id=1, log_time=t_ns, publish_time=t_ns, sequence=0, data=data).write(builder)
+    said = converted(MAGIC + builder.end(), tmp_path)
+    levels = [(each.topic, each.t_ns) for each in said if each.topic in {"/level", "/other"}]
+    assert levels == [("/other", 10**7), *(("/level", n * 10**7) for n in (2, 4, 5, 6, 8))]
 
 
 def test_our_own_types_scans_numbers_and_lines_are_kept_and_others_are_not(tmp_path):

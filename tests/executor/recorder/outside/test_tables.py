@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import sqlite3
-import time
 
 import pytest
 
@@ -87,10 +85,12 @@ def test_a_value_over_the_limit_is_not_read(tmp_path):
 
 def test_damaged_bytes_are_refused_or_read_without_harm(tmp_path):
     whole = made(tmp_path / "f", PLAIN).read_bytes()
-    begin_s = time.monotonic()
+    codes = set()
     for at in range(0, len(whole), 61):
         path = tmp_path / "damaged"
         path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
-        with contextlib.suppress(OutsideError):
+        try:
             rows(path)
-    assert time.monotonic() - begin_s < 30
+        except OutsideError as error:
+            codes.add(error.code)
+    assert "too_long" not in codes

@@ -10,6 +10,8 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
+from executor.tree_events import NodeStatus  # noqa: TC001 - msgspec reads the annotations
+
 Key = Annotated[str, Meta(min_length=1, max_length=255)]
 Uid = Annotated[int, Meta(ge=1, le=1_000_000)]
 Path = Annotated[str, Meta(min_length=1, max_length=65536)]
@@ -116,6 +118,20 @@ class Held(Struct):
     statuses: list[tuple[int, ResultName]] = []
     hook: int = 0
     outside: bool = False
+
+
+class HeldInPython(Struct):
+    """The program is held at a line of Python within a tick, of which this is known so far.
+
+    `path` has the uids from the root to the node `uid`, whose code is held. `statuses` are those of all nodes
+    that are not IDLE. It holds until the state is not `held` any more, or until the next event `tick`, `held`
+    or `held_in_python`.
+    """
+
+    uid: int
+    path: list[int]
+    tick: int
+    statuses: list[tuple[int, NodeStatus]] = []
 
 
 class Released(Struct):

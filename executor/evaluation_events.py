@@ -41,7 +41,8 @@ class EvaluationStarted(Struct):
     """The evaluation was read and checked, and its first run begins.
 
     `seed` is the first, and `wanted` the largest number of runs. `plan` has outlines of the world for its
-    report, in m. `duration_s` is how long a run takes at most, in simulated s.
+    report, in m. `duration_s` is how long a run takes at most, in simulated s. `notes` has a line for each
+    part of the project that does not run, such as a launch node.
     """
 
     job: str
@@ -51,6 +52,7 @@ class EvaluationStarted(Struct):
     sequential: bool
     duration_s: float
     plan: dict[str, Any]
+    notes: str = ""
 
 
 class EvaluationOutcome(Struct):

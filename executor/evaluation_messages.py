@@ -30,6 +30,7 @@ class Started(Message, tag="started"):
     sequential: bool
     duration_s: float
     plan: dict[str, Any]
+    notes: str = ""
 
 
 class RunDone(Message, tag="run_done"):

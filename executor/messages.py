@@ -7,7 +7,6 @@ Control socket (JSON text frames)
     client to server: ``{"id", "command", "data"}`` with one of `COMMANDS`;
     server to client: ``{"id", "command", "data", "seq", "t", "tick"}`` with one of `EVENTS`. A reply
     (``ack`` or ``error``) repeats the id of its command, other messages carry an id of their own.
-The module is long, since it is the list of the protocol; commands, and the events of a panel, have their own.
 Stream socket (MessagePack binary frames), server to client only: one of `FRAMES`, with its name in ``type``.
 """
 
@@ -56,6 +55,7 @@ from executor.debug_messages import (
     Forced,
     ForcedNode,
     Held,
+    HeldInPython,
     Release,
     Released,
     SetBreakpoints,
@@ -98,6 +98,9 @@ from executor.stream_messages import (
     View,
 )
 from executor.topic_events import (
+    LaunchNode,
+    LaunchNodes,
+    LaunchState,
     MismatchCode,
     TopicInfo,
     TopicMessage,
@@ -162,6 +165,10 @@ __all__ = [
     "GoingBack",
     "Groot2",
     "Held",
+    "HeldInPython",
+    "LaunchNode",
+    "LaunchNodes",
+    "LaunchState",
     "LaunchUniverse",
     "Light",
     "Mesh",
@@ -244,7 +251,6 @@ Rung = Literal["connect", "launch_universe", "prepare_visualization", "run_appli
 LogSource = Literal["action", "world", "manager", "launch"]
 LogLevel = Literal["debug", "info", "warning", "error"]
 Role = Literal["driver", "viewer"]
-LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
@@ -302,6 +308,17 @@ class Progress(Struct):
     message: str
 
 
+class Queued(Struct):
+    """The session waits for a place on the server, which sends this in place of the manager.
+
+    `before` is the number of robots that get a place before this one, null as soon as it has one; with
+    `is_own` it waits until another robot of the same user ends.
+    """
+
+    before: int | None
+    is_own: bool
+
+
 class Log(Struct):
     """One line of output."""
 
@@ -357,29 +374,8 @@ class Sim(Struct):
 
     It is below 1 if the machine is too slow for real time.
     """
-
-
-class LaunchNode(Struct):
-    """A process of the project's launch files; `file` and `line` are its place there.
-
-    `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
-    """
-
-    id: str
-    name: str
-    package: str
-    executable: str
-    file: str
-    line: int
-    state: LaunchState
-    restarts: int = 0
-    end: str = ""
-
-
-class LaunchNodes(Struct):
-    """All launch nodes of the application, sent when one of them changes."""
-
-    nodes: list[LaunchNode]
+    hits: int = 0
+    """Number of times that something that moves ran into the robot; `collisions` are those that it caused."""
 
 
 class Snapshot(Struct):
@@ -420,6 +416,7 @@ class Snapshot(Struct):
     runs_by_hand: dict[str, float] = {}
     """When the debugger changed those that it did, in s: one can go back only to an earlier moment."""
     held: Held | None = None
+    held_in_python: HeldInPython | None = None
     forced: Forced | None = None
     attached: Attached | None = None
     attached_tree: AttachedTree | None = None
@@ -435,6 +432,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "state-changed": StateChanged,
     "snapshot": Snapshot,
     "progress": Progress,
+    "queued": Queued,
     "tree": Tree,
     "tick": Tick,
     "blackboard": Blackboard,
@@ -457,6 +455,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "going_back": GoingBack,
     "differs": Differs,
     "held": Held,
+    "held_in_python": HeldInPython,
     "released": Released,
     "forced": Forced,
     "attached": Attached,

@@ -9,8 +9,6 @@ import msgspec
 from executor import messages  # noqa: TC001 - msgspec reads the annotations
 from executor.child_messages import Answer, Asked, Beat, Frame, Log, Message, Stop
 
-# --- to the recorder ------------------------------------------------------------------------------
-
 
 class StartRecorder(Message, tag="start"):
     """Records into a folder; the segments of an earlier recorder are taken over.
@@ -75,9 +73,6 @@ class FindKeyframe(Asked, tag="find_keyframe"):
 
     run: str
     t: float | None
-
-
-# --- from the recorder ----------------------------------------------------------------------------
 
 
 class Recorded(Message, tag="recorded"):

@@ -1,4 +1,4 @@
-"""The events of the topics panel: a part of the protocol in `executor.messages`."""
+"""Events of the panel Topics and of launch nodes: a part of the protocol in `executor.messages`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-MismatchCode = Literal["type", "reliability", "durability", "qos"]
+LaunchState = Literal["running", "ended", "failed"]
+MismatchCode = Literal["type", "reliability", "durability", "qos", "unpublished", "elsewhere", "unserved"]
 
 
 class TopicInfo(Struct):
@@ -56,19 +57,43 @@ class TypeDescription(Struct):
 
 
 class TopicMismatch(Struct):
-    """Two ends of a topic do not match, so no message arrives; reported once while both exist.
+    """Two ends of a topic do not match, or one is missing: no message arrives. Reported once while it is so.
 
     `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
-    of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
-    says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
+    of service; or `nobody`, if nobody publishes the topic (then `publisher` is empty), or serves the service
+    or action whose client `subscriber` is. `code` names it exactly, and `values` holds what `message` tells
+    except the names. `hint` says how to fix it. With `resolved`, what was reported is so no more.
     """
 
     topic: str
     publisher: str
     subscriber: str
-    reason: Literal["type", "qos"]
+    reason: Literal["type", "qos", "nobody"]
     message: str
     hint: str
     code: MismatchCode
     values: dict[str, str] = {}
     resolved: bool = False
+
+
+class LaunchNode(Struct):
+    """A process of the project's launch files; `file` and `line` are its place there.
+
+    `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
+    """
+
+    id: str
+    name: str
+    package: str
+    executable: str
+    file: str
+    line: int
+    state: LaunchState
+    restarts: int = 0
+    end: str = ""
+
+
+class LaunchNodes(Struct):
+    """All launch nodes of the application, sent when one of them changes."""
+
+    nodes: list[LaunchNode]

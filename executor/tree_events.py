@@ -33,7 +33,7 @@ class Tick(Struct):
     """The changes of one tick, or of a halt after it; a halt has the number `n` of that tick.
 
     `past` holds the nodes that are idle again, with their last status in the tick; it replaces the `past` of
-    the previous message.
+    the previous message. `forced` holds the uids of the nodes whose result in the tick was forced.
     """
 
     n: int
@@ -41,6 +41,7 @@ class Tick(Struct):
     flashed: list[tuple[int, NodeStatus]]
     duration_ms: float
     past: list[tuple[int, NodeStatus]] = []
+    forced: list[int] = []
 
 
 class BlackboardEntry(Struct):

@@ -206,8 +206,6 @@ class Control:
         if self.is_on:
             self._switch(on=False)
 
-    # --- inside ---
-
     def _switch(self, *, on: bool) -> None:
         if self.is_on and not on:
             ours = self._hooks().keys()

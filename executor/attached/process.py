@@ -98,8 +98,6 @@ class Follower:
         finally:
             self._close()
 
-    # --- the begin ---
-
     def _wait_for_start(self) -> child_messages.StartApplication | None:
         libraries(), builtins()  # loaded now, they are not waited for later
         self._pulse.rests()
@@ -156,8 +154,6 @@ class Follower:
             file = folder / path
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(data)
-
-    # --- following ---
 
     def _follow(self) -> None:
         due_s = time.monotonic()
@@ -251,8 +247,6 @@ class Follower:
         states, _ = self._client.statuses()
         self._recorder.correct({uid: state.status for uid, state in states.items()}, self._now_s())
 
-    # --- commands ---
-
     def _obey(self, message: ToApplication) -> None:
         match message:
             case child_messages.Stop():
@@ -300,8 +294,6 @@ class Follower:
             if isinstance(message, child_messages.Control):
                 self._tell(self._state, self._problem)
         return None
-
-    # --- messages ---
 
     def _now_s(self) -> float:
         return time.monotonic() - self._began_s

@@ -54,8 +54,6 @@ class AttachedRecorder(FollowedTree):
         self._link.flush(GOODBYE_S)
         self._link.close()
 
-    # --- what the log writes to ---
-
     def record(self, topic: str, name: str, fields: dict[str, Any]) -> None:
         """Sends a message to the recorder."""
         self._link.send(Record(topic, name, dict(fields)))

@@ -39,10 +39,12 @@ from executor.child_messages.application import (
     Forced,
     ForceResult,
     Held,
+    HeldInPython,
     MeasureNodes,
     Paused,
     PortSet,
     Profile,
+    PythonLineWrong,
     Released,
     ReleaseForced,
     Resumed,
@@ -160,6 +162,7 @@ __all__ = [
     "FromWorld",
     "GoingBack",
     "Held",
+    "HeldInPython",
     "KeepSnapshots",
     "ListTopics",
     "LoadWorld",
@@ -177,6 +180,7 @@ __all__ = [
     "Profile",
     "Progress",
     "PublishTopic",
+    "PythonLineWrong",
     "ReleaseForced",
     "Released",
     "Request",
@@ -285,8 +289,10 @@ FromApplication = (
     | Tick
     | Blackboard
     | PortSet
+    | PythonLineWrong
     | Applied
     | Held
+    | HeldInPython
     | Released
     | Forced
     | Attached

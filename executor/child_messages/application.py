@@ -52,6 +52,14 @@ class ConnectDebugger(Message, tag="connect_debugger"):
     token: str
 
 
+class PythonLineWrong(Message, tag="python_line_wrong"):
+    """An expression of a breakpoint in Python cannot be evaluated; `path` is a file of the project."""
+
+    path: str
+    line: int
+    text: str
+
+
 class TracePython(Message, tag="trace_python"):
     """Starts or stops the tracing of Python code in a process that a Python debugger is connected with."""
 
@@ -190,6 +198,10 @@ class Applied(messages.Applied, tag_field="type", tag="applied"):
 
 class Held(messages.Held, tag_field="type", tag="held"):
     """The event `held` for clients."""
+
+
+class HeldInPython(messages.HeldInPython, tag_field="type", tag="held_in_python"):
+    """The event `held_in_python` for clients."""
 
 
 class Released(Message, tag="released"):

@@ -39,7 +39,7 @@ def find_command(package: str, executable: str, root: Path, folder: Path) -> tup
     """
     own = _own_file(executable, root, folder)
     if own is not None:
-        return (sys.executable, str(own)) if own.suffix == ".py" else (str(own),)
+        return _python(own) if own.suffix == ".py" else (str(own),)
     if not package:
         raise NotFound(f"there is no file {executable!r} in the project")
     prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
@@ -67,13 +67,18 @@ def find_executable(name: str, root: Path, folder: Path) -> tuple[str, ...]:
     """
     own = _own_file(name, root, folder)
     if own is not None and own.suffix == ".py":
-        return (sys.executable, str(own))
+        return _python(own)
     found = str(own) if own is not None else shutil.which(name)
     if name in {"python", "python3"}:
         found = sys.executable
     if found is None:
         raise NotFound(f"there is no program {name!r} on this machine")
     return (found,)
+
+
+def _python(file: Path) -> tuple[str, ...]:
+    """Returns the command that runs a Python file; what it does wrong is said with its place."""
+    return (sys.executable, "-P", "-m", "tree_gardener.ros_script", str(file))
 
 
 def _own_file(name: str, root: Path, folder: Path) -> Path | None:

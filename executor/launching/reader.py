@@ -1,31 +1,40 @@
-"""Reads the `launch/*.launch.yaml` files of an application: arguments, nodes, parameters and remappings.
+"""Reads the launch files of an application: arguments, nodes, parameters, remappings, groups and includes.
 
-It supports the part of ROS 2's format that needs no `launch` package: `arg`, `let`, `node`, `executable` and
-`group`, with `$(var …)`, `$(dirname)`, `if` and `unless`. Known elements that are not supported are left out,
-with a note. Errors are reported with their line.
+It supports the part of ROS 2's formats (YAML and XML) that needs no `launch` package: `arg`, `let`, `node`,
+`executable`, `group`, `include` and `push_ros_namespace`, with the substitutions of `substitution.py`, `if`
+and `unless`. Known elements that are not supported are left out, with a note. Errors are reported with their
+line. A file that another one includes is not started once more by itself.
 """
 
 from __future__ import annotations
 
-import shlex
 import sys
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
+from executor.launching.documents import CODE, read_document
 from executor.launching.find import LAUNCH_PY_REFUSAL, NotFound, find_command, find_executable, has_launch
 from executor.launching.model import LaunchPlan, NodeSpec
 from executor.launching.navigators import may_navigate
-from executor.launching.substitution import SubstitutionError, substitute, truth
-from executor.universes.document import DocumentError, Located, Problem, read_yaml
+from executor.launching.parameters import parameter_text, parameter_value
+from executor.launching.substitution import SubstitutionError, Substitutions, truth
+from executor.universes.document import DocumentError, Located, Problem
+from translator.package.launch_files import FOLDER, started_files
 
-__all__ = ["CODE", "MOST_NODES", "read_launch_files"]
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["CODE", "MOST_INCLUDES", "MOST_NODES", "read_launch_files"]
 
 MOST_NODES: Final = 32
-CODE: Final = "BTL001"
+MOST_INCLUDES: Final = 32
+"""The largest number of includes within each other."""
 _LEFT_OUT: Final = frozenset(
     {
-        "append_env", "include", "log", "node_container", "push-ros-namespace", "push_ros_namespace",
-        "reset", "set_env", "set_parameter", "set_remap", "timer", "unset_env",
+        "append_env", "log", "node_container", "reset", "set_env", "set_parameter", "set_remap", "timer",
+        "unset_env",
     }
 )  # fmt: skip
 _NODE_KEYS: Final = frozenset(
@@ -33,18 +42,47 @@ _NODE_KEYS: Final = frozenset(
 )
 _IGNORED_KEYS: Final = frozenset(
     {
-        "output",
+        "cwd",
         "emulate_tty",
+        "exec_name",
+        "launch-prefix",
+        "on_exit",
+        "output",
         "respawn",
         "respawn_delay",
-        "launch-prefix",
-        "cwd",
+        "respawn_max_retries",
         "shell",
-        "on_exit",
-        "choice",
+        "sigkill_timeout",
+        "sigterm_timeout",
     }
 )
 _EXECUTABLE_KEYS: Final = frozenset({"cmd", "name", "env", "if", "unless"})
+_GROUP_KEYS: Final = frozenset({"children", "scoped", "forwarding", "if", "unless"})
+_INCLUDE_KEYS: Final = frozenset({"file", "arg", "let", "if", "unless"})
+_NAMESPACE_KEYS: Final = frozenset({"namespace", "if", "unless"})
+_ARG_KEYS: Final = frozenset({"name", "default", "description", "choice", "if", "unless"})
+_LET_KEYS: Final = frozenset({"name", "value", "if", "unless"})
+_PARAM_KEYS: Final = frozenset({"name", "value", "value-sep", "type", "param", "from", "allow_substs"})
+_ENTRY_KEYS: Final = {
+    "arg": frozenset({"name", "value"}),
+    "let": frozenset({"name", "value"}),
+    "env": frozenset({"name", "value"}),
+    "remap": frozenset({"from", "to"}),
+    "choice": frozenset({"value"}),
+    "param": _PARAM_KEYS,
+}
+_MAY_BE_TRUTHS: Final = frozenset({"scoped", "forwarding"})
+"""Values that `launch` reads as true and false of YAML, not as texts."""
+_READ: Final = {
+    "arg": "arg",
+    "let": "let",
+    "node": "node",
+    "executable": "executable",
+    "include": "include",
+    "push_ros_namespace": "push_namespace",
+    "push-ros-namespace": "push_namespace",
+}
+"""The actions that are read, and the method of each."""
 
 
 def read_launch_files(root: Path) -> LaunchPlan:
@@ -55,22 +93,12 @@ def read_launch_files(root: Path) -> LaunchPlan:
     """
     nodes: list[NodeSpec] = []
     notes: list[str] = []
-    for path in sorted((root / "launch").glob("*.launch.*")):
-        if path.name.endswith(".launch.py"):
-            nodes.append(_python_launch(root, path))
-        elif path.name.endswith((".launch.yaml", ".launch.yml")):
-            reader = _Reader(root, path, nodes, notes)
-            reader.read()
+    folder = root / FOLDER
+    paths = [path for path in folder.rglob("*launch.*") if path.is_file()] if folder.is_dir() else []
+    files = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
+    for name in started_files(files):
+        _Reader(root, root / name, nodes, notes).read()
     return LaunchPlan(tuple(nodes), tuple(notes), str(root))
-
-
-def _python_launch(root: Path, path: Path) -> NodeSpec:
-    file = path.relative_to(root).as_posix()
-    spec = NodeSpec(file, path.name, "", file, file, 1)
-    if not has_launch():
-        return NodeSpec(file, path.name, "", file, file, 1, refusal=LAUNCH_PY_REFUSAL)
-    command = (sys.executable, "-m", "executor.launching.launch_py", str(path))
-    return NodeSpec(spec.id, spec.name, "", file, file, 1, command=command)
 
 
 class _Reader:
@@ -78,24 +106,37 @@ class _Reader:
 
     def __init__(self, root: Path, path: Path, nodes: list[NodeSpec], notes: list[str]) -> None:
         self._root = root
-        self._folder = path.parent
-        self._path = path
-        self._file = path.relative_to(root).as_posix()
         self._nodes = nodes
         self._notes = notes
         self._variables: dict[str, str] = {}
+        self._namespace = ""
+        self._chain: tuple[Path, ...] = ()
+        self._open(path)
+
+    def _open(self, path: Path) -> None:
+        self._path = path
+        self._folder = path.parent
+        self._file = path.relative_to(self._root).as_posix()
         self._document = Located(None, {})
+        self._is_xml = path.suffix == ".xml"
 
     def read(self) -> None:
-        try:
-            text = self._path.read_text(encoding="utf-8")
-        except UnicodeDecodeError as error:
-            raise DocumentError([Problem("the file is not UTF-8 text", code=CODE)], self._file) from error
-        self._document = read_yaml(text, self._file)
-        top = self._document.value
-        if not isinstance(top, dict) or not isinstance(top.get("launch"), list):
-            raise self._error((), "a launch file is `launch:` with a list of actions")
-        self._actions(top["launch"], ("launch",))
+        """Reads the file, or passes one in Python on to ROS 2's own `launch`."""
+        if self._path.suffix == ".py":
+            self._nodes.append(self._python_launch(self._file, self._path))
+            return
+        self._document = read_document(self._path.read_bytes(), self._file)
+        self._actions(self._document.value["launch"], ("launch",))
+
+    def _python_launch(
+        self, id_: str, path: Path, *, line: int = 1, arguments: list[str] | None = None
+    ) -> NodeSpec:
+        file = path.relative_to(self._root).as_posix()
+        spec = NodeSpec(id_, path.name, "", file, self._file, line)
+        if not has_launch():
+            return replace(spec, refusal=LAUNCH_PY_REFUSAL)
+        command = (sys.executable, "-m", "executor.launching.launch_py", str(path), *(arguments or ()))
+        return replace(spec, command=command)
 
     def _actions(self, actions: list[Any], path: tuple[str | int, ...]) -> None:
         for index, action in enumerate(actions):
@@ -110,28 +151,103 @@ class _Reader:
             self._note(here, f"`{kind}` is left out")
         elif kind == "group":
             self._group(value, here)
-        elif kind in {"arg", "let", "node", "executable"}:
+        elif kind in _READ:
             if not isinstance(value, dict):
                 raise self._error(here, f"`{kind}` has values such as `name:`")
-            getattr(self, f"_{kind}")(value, here)
+            getattr(self, f"_{_READ[kind]}")(value, here)
         else:
-            raise self._error(here, f"there is no action {kind!r}", "arg, let, node, executable, group")
+            raise self._error(here, f"there is no action {kind!r}", ", ".join(sorted({*_READ, "group"})))
 
     def _group(self, value: Any, here: tuple[str | int, ...]) -> None:
+        own: dict[str, Any] = {}
+        if isinstance(value, dict):
+            own, value, here = value, value.get("children"), (*here, "children")
         if not isinstance(value, list):
             raise self._error(here, "`group` has a list of actions")
-        outside = dict(self._variables)
+        self._check_keys(own, _GROUP_KEYS, here[:-1])
+        if not self._is_wanted(own, here[:-1]):
+            return
+        is_scoped = truth(self._text(own, "scoped", here[:-1], "true"))
+        outside = dict(self._variables), self._namespace
+        if is_scoped and not truth(self._text(own, "forwarding", here[:-1], "true")):
+            self._variables = {}
         self._actions(value, here)
-        self._variables = outside
+        if is_scoped:
+            self._variables, self._namespace = outside
+
+    def _push_namespace(self, value: dict[str, Any], here: tuple[str | int, ...]) -> None:
+        self._check_keys(value, _NAMESPACE_KEYS, here)
+        if self._is_wanted(value, here):
+            self._namespace = _joined(self._namespace, self._text(value, "namespace", here))
+
+    def _include(self, value: dict[str, Any], here: tuple[str | int, ...]) -> None:
+        self._check_keys(value, _INCLUDE_KEYS, here)
+        if not self._is_wanted(value, here):
+            return
+        line, _ = self._document.place(here)
+        if len(self._nodes) >= MOST_NODES:
+            raise self._error(here, f"the launch files have more than {MOST_NODES} nodes")
+        id_, arguments = self._id(line), self._included_arguments(value, here)
+        try:
+            named = self._text(value, "file", here)
+        except DocumentError as error:  # a package that is not here; the node that is not started says so
+            why = f"cannot be started: {error.problems[0].message}."
+            self._nodes.append(NodeSpec(id_, str(value["file"]), "", "", self._file, line, refusal=why))
+            return
+        places = (self._root / named, self._folder / named)
+        path = next((place.resolve() for place in places if place.is_file()), None)
+        if path is None or not path.is_relative_to(self._root.resolve()):
+            raise self._error((*here, "file"), f"there is no file {named!r} in the project")
+        path = self._root / path.relative_to(self._root.resolve())
+        if path.suffix == ".py":
+            words = [f"{name}:={text}" for name, text in arguments.items()]
+            self._nodes.append(self._python_launch(id_, path, line=line, arguments=words))
+            return
+        if path == self._path or path in self._chain:
+            raise self._error((*here, "file"), f"{named} includes itself, here or through other files")
+        if len(self._chain) >= MOST_INCLUDES:
+            raise self._error(
+                (*here, "file"), f"there are more than {MOST_INCLUDES} includes within each other"
+            )
+        self._variables |= arguments
+        with self._inside(path):
+            self.read()
+
+    def _included_arguments(self, value: dict[str, Any], here: tuple[str | int, ...]) -> dict[str, str]:
+        return {
+            self._text(entry, "name", place): self._text(entry, "value", place)
+            for key in ("arg", "let")
+            for entry, place in self._entries(value, key, here)
+        }
+
+    @contextmanager
+    def _inside(self, path: Path) -> Iterator[None]:
+        """Reads another file; what it sets stays set after it, as in ROS 2."""
+        outside = self._path, self._chain, self._document
+        self._chain = (*self._chain, self._path)
+        self._open(path)
+        try:
+            yield
+        finally:
+            self._open(outside[0])
+            _, self._chain, self._document = outside
 
     def _arg(self, value: dict[str, Any], here: tuple[str | int, ...]) -> None:
+        self._check_keys(value, _ARG_KEYS, here)
+        if not self._is_wanted(value, here):
+            return
         name = self._text(value, "name", here)
-        if "default" in value:
+        if "default" in value and name not in self._variables:  # what an include gives counts
             self._variables[name] = self._text(value, "default", here)
-        self._check_keys(value, frozenset({"name", "default", "description"}), here)
+        choices = [self._text(each, "value", place) for each, place in self._entries(value, "choice", here)]
+        if choices and self._variables.get(name, choices[0]) not in choices:
+            text = f"the argument {name!r} is {self._variables[name]!r}, which is not a choice"
+            raise self._error(here, text, ", ".join(choices))
 
     def _let(self, value: dict[str, Any], here: tuple[str | int, ...]) -> None:
-        self._variables[self._text(value, "name", here)] = self._text(value, "value", here)
+        self._check_keys(value, _LET_KEYS, here)
+        if self._is_wanted(value, here):
+            self._variables[self._text(value, "name", here)] = self._text(value, "value", here)
 
     def _node(self, value: dict[str, Any], here: tuple[str | int, ...]) -> None:
         self._check_keys(value, _NODE_KEYS, here)
@@ -188,16 +304,21 @@ class _Reader:
         line, _ = self._document.place(here)
         self._nodes.append(
             NodeSpec(
-                f"{self._file}:{line}", name, package or "", executable, self._file, line, command,
+                self._id(line), name, package or "", executable, self._file, line, command,
                 environment, refusal, may_navigate(package or "", command),
             )
         )  # fmt: skip
 
-    # --- parts of a node --------------------------------------------------------------------------
+    def _id(self, line: int) -> str:
+        """Returns an id by the place; several nodes may stand in one line, or a file be included twice."""
+        id_, known = f"{self._file}:{line}", {node.id for node in self._nodes}
+        return next(
+            each for each in (id_, *(f"{id_} ({n})" for n in range(2, MOST_NODES + 2))) if each not in known
+        )
 
     def _ros_arguments(self, value: dict[str, Any], here: tuple[str | int, ...], name: str) -> list[str]:
         words = ["-r", f"__node:={name}"] if name else []
-        if namespace := self._text(value, "namespace", here, ""):
+        if namespace := _joined(self._namespace, self._text(value, "namespace", here, "")):
             words += ["-r", f"__ns:=/{namespace.strip('/')}"]
         for remap, place in self._entries(value, "remap", here):
             words += ["-r", f"{self._text(remap, 'from', place)}:={self._text(remap, 'to', place)}"]
@@ -206,12 +327,11 @@ class _Reader:
         return words
 
     def _parameter(self, param: dict[str, Any], here: tuple[str | int, ...], prefix: str) -> list[str]:
+        given = [key for key in ("from", "value", "param") if key in param]
+        if len(given) > 1 or ("from" in param and "name" in param):
+            raise self._error(here, "a parameter is either `from:`, or `name:` with `value:` or `param:`")
         if "from" in param:
-            name = self._text(param, "from", here)
-            path = next((p for p in (self._root / name, self._folder / name) if p.is_file()), None)
-            if path is None or not path.resolve().is_relative_to(self._root.resolve()):
-                raise self._error((*here, "from"), f"there is no file {name!r} in the project")
-            return ["--params-file", str(path)]
+            return ["--params-file", self._parameter_file(param, here)]
         name = prefix + self._text(param, "name", here)
         if "param" in param:
             words: list[str] = []
@@ -220,20 +340,27 @@ class _Reader:
             return words
         if "value" not in param:
             raise self._error(here, f"the parameter {name!r} has no value")
-        return ["-p", f"{name}:={self._parameter_text(param['value'], (*here, 'value'))}"]
+        try:
+            value = parameter_value(
+                param["value"],
+                self._substitutions,
+                type_name=self._text(param, "type", here, "yaml"),
+                separator=str(param.get("value-sep", "")),
+                is_xml=self._is_xml,
+            )
+        except SubstitutionError as error:
+            raise self._error((*here, "value"), str(error)) from error
+        return ["-p", self._sound(f"{name}:={parameter_text(value)}", (*here, "value"))]
 
-    def _parameter_text(self, value: Any, here: tuple[str | int, ...]) -> str:
-        if isinstance(value, list):
-            items = (self._parameter_text(item, (*here, i)) for i, item in enumerate(value))
-            return f"[{', '.join(items)}]"
-        if isinstance(value, bool):
-            return str(value).lower()
-        if isinstance(value, str):
-            # A text that is a number after its substitutions becomes one, as in ROS.
-            return self._substituted(value, here)
-        if isinstance(value, int | float):
-            return repr(value)
-        raise self._error(here, "a parameter is a number, a text, true or false, or a list of them")
+    def _parameter_file(self, param: dict[str, Any], here: tuple[str | int, ...]) -> str:
+        if str(param.get("allow_substs", False)).lower() not in {"false", "0"}:
+            text = "substitutions in a parameter file are not read here"
+            raise self._error((*here, "allow_substs"), text, "write the parameters below the node")
+        name = self._text(param, "from", here)
+        path = next((p for p in (self._root / name, self._folder / name) if p.is_file()), None)
+        if path is None or not path.resolve().is_relative_to(self._root.resolve()):
+            raise self._error((*here, "from"), f"there is no file {name!r} in the project")
+        return str(path)
 
     def _environment(self, value: dict[str, Any], here: tuple[str | int, ...]) -> tuple[tuple[str, str], ...]:
         entries = self._entries(value, "env", here)
@@ -245,9 +372,13 @@ class _Reader:
         entries = value.get(key, [])
         if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
             raise self._error((*here, key), f"`{key}` is a list of entries with values below them")
+        for index, entry in enumerate(entries):
+            self._check_keys(entry, _ENTRY_KEYS[key], (*here, key, index))
         return [(entry, (*here, key, index)) for index, entry in enumerate(entries)]
 
     def _is_wanted(self, value: dict[str, Any], here: tuple[str | int, ...]) -> bool:
+        if "if" in value and "unless" in value:
+            raise self._error((*here, "unless"), "an action has either `if` or `unless`")
         for key, wanted in (("if", True), ("unless", False)):
             if key in value:
                 try:
@@ -258,32 +389,45 @@ class _Reader:
         return True
 
     def _words(self, value: dict[str, Any], key: str, here: tuple[str | int, ...]) -> list[str]:
-        text = self._text(value, key, here, "")
+        text = self._given(value, key, here, "")
         try:
-            return shlex.split(text)
-        except ValueError as error:
-            raise self._error((*here, key), f"`{key}` cannot be split into words: {error}") from error
+            words = self._substitutions.words(text)
+        except SubstitutionError as error:
+            raise self._error((*here, key), f"`{key}`: {error}") from error
+        return [self._sound(word, (*here, key)) for word in words]
 
     def _text(
         self, value: dict[str, Any], key: str, here: tuple[str | int, ...], default: str | None = None
     ) -> str:
+        text = self._given(value, key, here, default)
+        try:
+            return self._sound(self._substitutions.text(text), (*here, key))
+        except SubstitutionError as error:
+            raise self._error((*here, key), str(error)) from error
+
+    def _given(
+        self, value: dict[str, Any], key: str, here: tuple[str | int, ...], default: str | None
+    ) -> str:
         found = value.get(key, default)
         if found is None:
             raise self._error(here, f"`{key}` is missing")
-        if isinstance(found, bool):
-            return str(found).lower()
-        if not isinstance(found, str | int | float):
+        if isinstance(found, str):
+            return found
+        if not isinstance(found, bool | int | float):
             raise self._error((*here, key), f"`{key}` must be a text")
-        return self._substituted(str(found), (*here, key))
+        text = str(found).lower() if isinstance(found, bool) else str(found)
+        if key not in _MAY_BE_TRUTHS:
+            self._note((*here, key), f'`{key}` is no text, which `ros2 launch` refuses: write "{text}"')
+        return text
 
-    def _substituted(self, text: str, here: tuple[str | int, ...]) -> str:
-        try:
-            result = substitute(text, self._variables, str(self._folder))
-        except SubstitutionError as error:
-            raise self._error(here, str(error)) from error
-        if "\0" in result:
+    @property
+    def _substitutions(self) -> Substitutions:
+        return Substitutions(self._variables, str(self._folder))
+
+    def _sound(self, text: str, here: tuple[str | int, ...]) -> str:
+        if "\0" in text:
             raise self._error(here, "a text must not contain the character NUL")
-        return result
+        return text
 
     def _check_keys(self, value: dict[str, Any], known: frozenset[str], here: tuple[str | int, ...]) -> None:
         for key in value:
@@ -299,3 +443,8 @@ class _Reader:
     def _error(self, here: tuple[str | int, ...], message: str, hint: str = "") -> DocumentError:
         line, column = self._document.place(here)
         return DocumentError([Problem(message, line, column, CODE, hint)], self._file)
+
+
+def _joined(namespace: str, inner: str) -> str:
+    """Returns a namespace within another; one that begins with a slash stands alone, as in launch_ros."""
+    return inner if not namespace or inner.startswith("/") else f"{namespace.rstrip('/')}/{inner}".rstrip("/")

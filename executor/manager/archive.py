@@ -6,11 +6,13 @@ import base64
 import binascii
 import io
 import stat
-import struct
-import zipfile
-import zlib
 from pathlib import Path, PurePosixPath
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+from translator.unzip import DAMAGED, ArchiveTooLargeError, chunks, open_zip
+
+if TYPE_CHECKING:
+    import zipfile
 
 __all__ = ["ArchiveError", "unpack"]
 
@@ -18,11 +20,6 @@ MAX_FILES: Final = 5000
 MAX_FILE_BYTES: Final = 100 << 20
 MAX_TOTAL_BYTES: Final = 300 << 20
 MAX_PATH_CHARACTERS: Final = 240
-MAX_DIRECTORY_BYTES: Final = 4 << 20
-_CHUNK: Final = 1 << 20
-_END: Final = struct.Struct("<4s4H2LH")
-_END_OF_DIRECTORY: Final = b"PK\5\6"
-_LONGEST_TAIL: Final = _END.size + (1 << 16)
 
 
 class ArchiveError(Exception):
@@ -40,25 +37,13 @@ def unpack(archive_base64: str, folder: Path) -> None:
         data = base64.b64decode(archive_base64, validate=True)
     except (binascii.Error, ValueError) as error:
         raise ArchiveError(f"it is not base64: {error}") from error
-    _check_directory(data)
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        with open_zip(io.BytesIO(data)) as archive:
             _unpack_all(archive, folder)
-    # zipfile raises NotImplementedError for unknown compression, RuntimeError for encryption.
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
-        raise ArchiveError(f"it is not a readable zip: {error}") from error
-    except (OSError, ValueError) as error:
+    except ArchiveTooLargeError as error:
+        raise ArchiveError(f"it is too large: {error}") from error
+    except DAMAGED as error:
         raise ArchiveError(f"it cannot be unpacked: {error}") from error
-
-
-def _check_directory(data: bytes) -> None:
-    """Refuses a zip directory with millions of entries before `zipfile` makes an object of each entry."""
-    at = data.rfind(_END_OF_DIRECTORY, max(0, len(data) - _LONGEST_TAIL))
-    if at < 0 or at + _END.size > len(data):
-        return  # the archive is not a zip, which zipfile reports
-    *_, size, _, _ = _END.unpack_from(data, at)
-    if size > MAX_DIRECTORY_BYTES:
-        raise ArchiveError(f"its directory is larger than {MAX_DIRECTORY_BYTES >> 20} MB")
 
 
 def _unpack_all(archive: zipfile.ZipFile, folder: Path) -> None:
@@ -95,15 +80,6 @@ def _safe_path(entry: zipfile.ZipInfo) -> PurePosixPath:
 
 
 def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, limit: int) -> int:
-    """Writes one file, and returns the number of bytes written.
-
-    The size in the zip's directory may be wrong.
-    """
-    written = 0
-    with archive.open(entry) as source, target.open("xb") as sink:
-        while chunk := source.read(_CHUNK):
-            written += len(chunk)
-            if written > limit:
-                raise ArchiveError(f"it is too large at {entry.filename!r}")
-            sink.write(chunk)
-    return written
+    """Writes one file, and returns the number of bytes written."""
+    with target.open("xb") as sink:
+        return sum(sink.write(chunk) for chunk in chunks(archive, entry, limit))

@@ -13,6 +13,7 @@ from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import lockstep_environment, ros_environment
 from executor.supervision.processes import Limits, Program
 from executor.supervision.single_threaded import SINGLE_THREADED
+from tree_gardener.ros_fields import VARIABLE as CHECK_FIELDS
 
 if TYPE_CHECKING:
     from executor.session.events import Kind
@@ -45,7 +46,9 @@ def session_programs(domain_id: int, groot2: int = 0, cluster: str = "") -> dict
     return {
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
         "application": Program(
-            (sys.executable, "-m", "executor.application.process"), environment | shown, limits
+            (sys.executable, "-m", "executor.application.process"),
+            {**environment, **shown, CHECK_FIELDS: "1"},  # also of the project's launch nodes
+            limits,
         ),
         "exact": Program(
             (sys.executable, "-m", "executor.exact.process"),

@@ -56,6 +56,10 @@ __all__ = ["SessionServer", "Traffic"]
 _log = logging.getLogger(__name__)
 
 MAX_COMMAND_BYTES: Final = 128 << 20
+OPEN_S: Final = 60.0
+"""How long a request may take, such as for a recording that is joined first on a busy machine."""
+MAX_QUEUED: Final = 2
+"""Commands of a client that wait for their turn while another one is handled; a command can be large."""
 MAX_CLIENTS: Final = 32
 HEARTBEAT_S: Final = 15.0
 REPLACED: Final = 4409
@@ -123,7 +127,9 @@ class SessionServer:
     def _options(self) -> dict[str, Any]:
         return {
             "process_request": self._check_request,
+            "open_timeout": OPEN_S,
             "max_size": MAX_COMMAND_BYTES,
+            "max_queue": MAX_QUEUED,
             "compression": None,
             "ping_interval": HEARTBEAT_S,
             "ping_timeout": HEARTBEAT_S,
@@ -162,8 +168,6 @@ class SessionServer:
     def _stream_of(self, client: str) -> list[tuple[str, StreamOutbox]]:
         outbox = self._streams.get(client)
         return [] if outbox is None else [(client, outbox)]
-
-    # --- requests ---------------------------------------------------------------------------------
 
     async def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
         path = urlsplit(request.path).path
@@ -205,8 +209,6 @@ class SessionServer:
         response.headers["Content-Type"] = CONTENT_TYPE
         return response
 
-    # --- connections ------------------------------------------------------------------------------
-
     async def _serve(self, connection: ServerConnection) -> None:
         assert connection.request is not None  # noqa: S101 - the handshake is over
         url = urlsplit(connection.request.path)
@@ -246,7 +248,7 @@ class SessionServer:
         self._forget(client)
 
     def _close_soon(self, connection: ServerConnection) -> None:
-        closing = asyncio.create_task(connection.close(REPLACED, "the client opened a new connection"))
+        closing = asyncio.create_task(connection.close(REPLACED, "this page has opened another connection"))
         self._closing.add(closing)
         closing.add_done_callback(self._closing.discard)
 
@@ -267,8 +269,6 @@ class SessionServer:
             if self._streams.get(client) is outbox:
                 del self._streams[client], self._stream_connections[client]
                 self._report(StreamClosed(client))
-
-    # --- messages ---------------------------------------------------------------------------------
 
     async def _take_all(self, client: str, connection: ServerConnection, outbox: ControlOutbox) -> None:
         """Handles commands in small groups; waits while too many of the client's replies are unread."""
@@ -341,7 +341,7 @@ def _decode_data(data: msgspec.Raw, kind: type[Struct]) -> Struct:
 
 
 def _slow_down(allowance: Allowance, wait_s: float) -> tuple[str, str]:
-    text = f"This client sends more commands than a session takes: {allowance.rate_hz:g} a second."
+    text = f"This page sends more commands than a session takes: {allowance.rate_hz:g} a second."
     return text, f"Wait {max(wait_s, 0.1):.1f} s, then send it again."
 
 

@@ -73,7 +73,7 @@ def stamped(pose: Pose, now_s: float) -> PoseStamped:
     """Returns a pose in the map as a message."""
     message = PoseStamped()
     message.header.frame_id, message.header.stamp = MAP_FRAME, to_time(now_s)
-    message.pose.position.x, message.pose.position.y = pose[0], pose[1]
+    message.pose.position.x, message.pose.position.y = float(pose[0]), float(pose[1])
     message.pose.orientation.z, message.pose.orientation.w = math.sin(pose[2] / 2), math.cos(pose[2] / 2)
     return message
 
@@ -97,9 +97,9 @@ def grid_message(grid: Grid, now_s: float) -> OccupancyGrid:
     message = OccupancyGrid()
     message.header.frame_id, message.header.stamp = MAP_FRAME, to_time(now_s)
     about = message.info
-    about.map_load_time, about.resolution = message.header.stamp, grid.resolution
+    about.map_load_time, about.resolution = message.header.stamp, float(grid.resolution)
     about.height, about.width = map(int, grid.occupied.shape)
-    about.origin.position.x, about.origin.position.y = grid.origin
+    about.origin.position.x, about.origin.position.y = map(float, grid.origin)
     about.origin.orientation.w = 1.0
     cells = np.where(grid.occupied, OCCUPIED, 0).astype(np.int8)
     message.data = array.array("b", cells.tobytes())

@@ -164,8 +164,6 @@ class Navigation:
             server.destroy()
         self._node.destroy_node()
 
-    # --- on and off ---
-
     def _is_wanted(self) -> bool:
         """Returns whether someone uses one of the names, and nobody else offers any of them."""
         if not self._world.robots:
@@ -225,8 +223,6 @@ class Navigation:
         publisher = self._node.create_publisher(kind, topic, qos)
         return publisher if self._outlet is None else Piped(publisher, self._outlet)
 
-    # --- the map ---
-
     def _space_now(self) -> Map:
         if self._space is None or self._is_stale:
             x, y, _ = self._robot().pose
@@ -265,8 +261,6 @@ class Navigation:
         space = self._space_now()
         response.cost = space.nav2_cost(request.x, request.y, is_footprint=request.use_footprint)
         return response
-
-    # --- goals ---
 
     def _robot(self) -> Robot:
         return self._world.robots[0]

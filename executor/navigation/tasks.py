@@ -134,7 +134,7 @@ class FollowPath(_Task):
         self._following.step(at.now_s, at.pose, at.speed, at.space())
 
     def report(self, feedback: Any, at: Situation) -> None:
-        feedback.distance_to_goal, feedback.speed = self._following.left(), at.speed
+        feedback.distance_to_goal, feedback.speed = float(self._following.left()), float(at.speed)
 
 
 class Navigate(_Task):

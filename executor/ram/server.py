@@ -114,8 +114,6 @@ class RamServer:
     def send_frame(self, frame: Frame) -> None:
         """Ignores a frame, since the RAM dialect has no streams."""
 
-    # --- connections ------------------------------------------------------------------------------
-
     def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
         refusal = self._admission.judge(request)
         if refusal is None:
@@ -154,8 +152,6 @@ class RamServer:
             while self._session.state is not State.IDLE or self._session.children.leaving:  # noqa: ASYNC110
                 await asyncio.sleep(0.05)
 
-    # --- commands ---------------------------------------------------------------------------------
-
     def _take(self, client: str, frame: str | bytes) -> None:
         request = str(uuid4())
         try:
@@ -187,8 +183,6 @@ class RamServer:
         state = self._name_of(self._session.state.value)
         text = error_text(error, self._commands.get(request, ""), state)
         self._answer(request, "error", {"code": error.code, "message": text})
-
-    # --- messages ---------------------------------------------------------------------------------
 
     def _put(self, command: str, data: Any) -> None:
         if self._outbox is not None:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import base64
-import binascii
 import io
 import json
-import zipfile
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any, Final
@@ -14,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor import messages
 from executor.session.ladder import State
 from executor.universes.loader import BUILTIN_IDS
+from translator.unzip import DAMAGED, ArchiveTooLargeError, open_zip
 
 if TYPE_CHECKING:
     from msgspec import Struct
@@ -36,7 +35,7 @@ _NOT_OFFERED: Final = frozenset({"code_analysis", "code_autocomplete", "code_for
 _VISUALIZATIONS: Final = frozenset(
     {"none", "console", "gazebo_gra", "gazebo_rae", "physic_gra", "physic_rae", "bt_studio"}
 )
-_ALIASES: Final = {
+WORLD_ALIASES: Final = {
     "autoparking": "warehouse",
     "empty_world": "empty",
     "football_world": "football",
@@ -46,8 +45,11 @@ _ALIASES: Final = {
     "hospital_follow_person": "person_in_green",
     "laser_bump_and_go": "walled_room",
     "maze_world": "maze",
+    "obstacle_avoidance": "circuit_obstacles",
+    "obstacle_avoidance_default": "circuit_obstacles",
     "receptionist": "house",
-    "simple_circuit": "line",
+    "simple_circuit": "circuit",
+    "simple_circuit_obstacles": "circuit_obstacles",
     "small_house": "house",
     "small_warehouse_with_amazon_robot": "warehouse",
     "turtlebot2": "walled_room",
@@ -136,9 +138,9 @@ def _universe_of(data: Any) -> str:
         plain = name.strip().lower().replace(" ", "_").replace("-", "_")
         if plain in BUILTIN_IDS:
             return plain
-        if plain in _ALIASES:
-            return _ALIASES[plain]
-    known = ", ".join(sorted({*BUILTIN_IDS, *_ALIASES}))
+        if plain in WORLD_ALIASES:
+            return WORLD_ALIASES[plain]
+    known = ", ".join(sorted({*BUILTIN_IDS, *WORLD_ALIASES}))
     raise RamError(f"the world {names[0] or names[2]!r} is not known here; there are {known}")
 
 
@@ -165,12 +167,11 @@ def _settings_of(archive: str) -> dict[str, Any]:
     Empty if the archive is bad, which is reported later.
     """
     try:
-        with zipfile.ZipFile(io.BytesIO(base64.b64decode(archive))) as files:
+        with open_zip(io.BytesIO(base64.b64decode(archive))) as files:
             if "project.json" not in files.namelist():
                 return {}
             with files.open("project.json") as file:
                 found = json.loads(file.read(SMALL_FILE_BYTES))
-    # zipfile raises NotImplementedError for unknown compression, RuntimeError for encryption.
-    except (binascii.Error, ValueError, zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError):
+    except (ArchiveTooLargeError, *DAMAGED):
         return {}
     return found if isinstance(found, dict) else {}

@@ -138,8 +138,6 @@ class GlRenderer:
             self._context.release()
             self._context = None
 
-    # --- inside ---
-
     def _quad(self, program: str, vertices: NDArray[np.float32]) -> Any:
         points, order = geometry.indexed(vertices)
         buffer, indices = self._context.buffer(points[:, :3].tobytes()), self._context.buffer(order.tobytes())

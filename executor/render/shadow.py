@@ -70,8 +70,6 @@ class ShadowPlan:
         rectangles = merged(_boxes(np.concatenate([old[moved], self._texels[moved]])))
         return [self._work(rectangle, self._texels) for rectangle in rectangles]
 
-    # --- inside ---
-
     def _fit(self, placed: Floats) -> None:
         """Fits the shadow map to the scene, with a margin for motion."""
         low, high = self._bounds(placed)

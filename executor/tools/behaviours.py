@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.tools.answering import answer
 from tree_gardener.testing.apart import run_apart
 from tree_gardener.testing.job import Job
 
@@ -62,7 +63,10 @@ def run_job(document: dict[str, Any], *, limit_s: float = LIMIT_S, wall_s: float
 
 
 async def run_behaviours(text: str) -> str:
-    """Runs the tests that a text asks for in a child; returns its answer, "" if it gave none."""
+    """Runs the tests that a text asks for in a child; returns its answer, "" if it gave none.
+
+    The child is ended if this is cancelled.
+    """
     process = await asyncio.create_subprocess_exec(
         sys.executable,
         "-m",
@@ -76,22 +80,28 @@ async def run_behaviours(text: str) -> str:
     try:
         output, _ = await asyncio.wait_for(process.communicate(text.encode()), LAST_S)
     except TimeoutError:
-        process.kill()
-        await process.wait()
         return ""
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+        await process.wait()
     return output.decode() if process.returncode == 0 else ""
 
 
 async def serve_behaviours(connection: ServerConnection) -> None:
-    """Receives `{job, run}` as JSON, and answers `{results}`; "" if that cannot be done."""
+    """Receives `{job, run}` as JSON, and answers `{results}`; "" if that cannot be done.
+
+    The tests end with the connection.
+    """
     asked = await connection.recv()
-    await connection.send(await run_behaviours(asked if isinstance(asked, str) else asked.decode()))
+    text = asked if isinstance(asked, str) else asked.decode()
+    await answer(connection, run_behaviours(text))
 
 
 def main() -> None:
     """Reads the job from standard input, and writes the results to standard output."""
-    answer = run_job(json.load(sys.stdin))
-    json.dump(answer, sys.stdout, default=str)
+    found = run_job(json.load(sys.stdin))
+    json.dump(found, sys.stdout, default=str)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""The socket of the tools: `/language` for an open editor, `/ruff` for the checker, `/tests` for tests."""
+"""The socket of the tools.
+
+There are `/language` for an open editor, `/ruff` for the checker, `/tests` for tests, `/uploads` for imports.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,11 @@ from typing import TYPE_CHECKING, Final
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
+from executor.supervision.scratch import Scratch
 from executor.tools.behaviours import serve_behaviours
 from executor.tools.checker import serve_checker
 from executor.tools.language import serve_editor
+from executor.tools.uploads import serve_uploads
 
 if TYPE_CHECKING:
     import socket
@@ -25,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ToolsServer"]
 
-MAX_MESSAGE_BYTES: Final = 300 << 20  # bytes; all Python files of the largest project in one message
+MAX_MESSAGE_BYTES: Final = 300 << 20  # bytes; all Python files of the largest project, or the largest upload
 MAX_CLIENTS: Final = 16
 HEARTBEAT_S: Final = 15.0
 
@@ -53,13 +58,16 @@ class ToolsServer:
 
     async def run(self) -> None:
         """Serves until `end` is called, or until no client was connected for the grace period."""
-        with tempfile.TemporaryDirectory(prefix="bt-studio-tools-") as folder:
-            self._root = Path(folder)
+        scratch = Scratch()  # also removed if this process is killed
+        try:
+            self._root = scratch.path
             options = {"process_request": self._check, "max_size": MAX_MESSAGE_BYTES, "compression": None}
             options |= {"ping_interval": HEARTBEAT_S, "ping_timeout": HEARTBEAT_S}
             async with serve(self._serve, sock=self._listener, ssl=self._tls, **options):  # type: ignore[arg-type]
                 self._wait_for_clients()
                 await self._ended.wait()
+        finally:
+            scratch.remove()
 
     def end(self) -> None:
         """Makes `run` return."""
@@ -72,8 +80,9 @@ class ToolsServer:
         given = request.headers.get("Authorization", "").encode()
         if not hmac.compare_digest(given, self._expected):
             return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
-        if request.path not in {"/language", "/ruff", "/tests"}:
-            return connection.respond(HTTPStatus.NOT_FOUND, "There are /language, /ruff and /tests.\n")
+        if request.path not in {"/language", "/ruff", "/tests", "/uploads"}:
+            text = "There are /language, /ruff, /tests and /uploads.\n"
+            return connection.respond(HTTPStatus.NOT_FOUND, text)
         if self._clients >= MAX_CLIENTS:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many editors.\n")
         return None
@@ -89,6 +98,8 @@ class ToolsServer:
                     await serve_checker(connection)
                 elif connection.request.path == "/tests":
                     await serve_behaviours(connection)
+                elif connection.request.path == "/uploads":
+                    await serve_uploads(connection, self._root)
                 else:
                     with tempfile.TemporaryDirectory(dir=self._root) as home:
                         await serve_editor(connection, Path(home))

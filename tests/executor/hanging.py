@@ -13,6 +13,7 @@ import psutil
 
 from executor.session.ladder import HAS_APPLICATION, State
 from tests.executor.session_client import SessionClient, manager_process, run_data
+from tests.executor.warm import warm_session
 from tests.processes import with_word
 
 CHILDREN = ("world", "application")
@@ -105,7 +106,7 @@ class HangingSession:
         right_s = time.monotonic() - began_s
         outcome = Outcome(kind, state, fault["data"], fault["at"] - began_s, right_s)
         assert fault["data"]["kind"] == "timeout", outcome
-        assert "stopped, as by SIGSTOP" in fault["data"]["message"], outcome
+        assert "its process is stopped" in fault["data"]["message"], outcome
         assert ("waiting" in fault["data"]["message"]) is not is_used, outcome
         assert len(self.client.named("fault", after=at)) == 1, outcome
         return outcome
@@ -119,6 +120,13 @@ class HangingSession:
 
 @contextlib.asynccontextmanager
 async def hanging_session():
+    """Opens a session that other tests use, too."""
+    async with warm_session(stream=False) as (manager, client):
+        yield HangingSession(manager, client)
+
+
+@contextlib.asynccontextmanager
+async def own_hanging_session():
     """Opens a session of its own."""
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open(stream=False)

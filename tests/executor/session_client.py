@@ -18,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor.messages import Camera, Poses, RecordingPart, Scan, Scene, View
 from executor.stream.pose_codec import POSE_BYTES, unpack
+from tests.deadline import DEADLINE_S
 from translator import load, to_app_zip
 
 ROOT = Path(__file__).parents[2]
@@ -93,7 +94,7 @@ class SessionClient:
                 self.frames.append((time.monotonic(), frame))
                 self._changed.notify_all()
 
-    async def until(self, condition, timeout_s=60):
+    async def until(self, condition, timeout_s=DEADLINE_S):
         try:
             async with asyncio.timeout(timeout_s), self._changed:
                 await self._changed.wait_for(condition)
@@ -102,7 +103,7 @@ class SessionClient:
             last = [f"{e['command']} {e['data']}"[:300] for e in self.events[-LAST_EVENTS:]]
             raise TimeoutError(f"not in {timeout_s} s; the last events were: {last}") from error
 
-    async def event(self, name, where=lambda data: True, *, after=0, timeout_s=60):
+    async def event(self, name, where=lambda data: True, *, after=0, timeout_s=DEADLINE_S):
         """Returns the first event of a name after the given place in `events`."""
 
         def find():
@@ -116,7 +117,7 @@ class SessionClient:
         await self.control.send(json.dumps({"id": request, "command": command, "data": data}))
         return request
 
-    async def ask(self, command, data=None, timeout_s=70):
+    async def ask(self, command, data=None, timeout_s=DEADLINE_S):
         """Sends a command and returns its reply: "ack" or the error."""
         request = await self.send(command, data)
         reply = await self.until(
@@ -197,7 +198,7 @@ async def manager_process(*arguments, env=None, prefix=()):
     finally:
         if process.returncode is None:
             process.terminate()
-        async with asyncio.timeout(60):
+        async with asyncio.timeout(DEADLINE_S):
             await process.wait()
-        _, alive = psutil.wait_procs(family, timeout=60)
+        _, alive = psutil.wait_procs(family, timeout=DEADLINE_S)
         assert alive == []

@@ -76,7 +76,7 @@ class Storm:
         await self.has_ended(victim.pid)
         if is_used and self.session.state.reaches(State.UNIVERSE_READY):
             # Viewers receive what died, and why.
-            await self.client.event("fault", lambda d: "SIGKILL" in d["message"], after=at)
+            await self.client.event("fault", lambda d: "ended at once" in d["message"], after=at)
 
     @staticmethod
     async def has_ended(pid):

@@ -16,7 +16,7 @@ from executor.session.hangs.vitals import FAULT_AFTER_S
 from executor.session.ladder import State
 from executor.session.recording import MOST_LOST
 from tests.budget import count
-from tests.executor.hanging import ROOT, hanging_session
+from tests.executor.hanging import ROOT, hanging_session, own_hanging_session
 from tests.executor.session_client import SessionClient, manager_process, run_data
 from tests.tree_gardener.debugging.hooked import free_port
 from tree_gardener.groot.client import Groot2Client, SilenceError
@@ -37,10 +37,11 @@ OF_A_SESSION = len(VICTIMS) * MOST_LOST
 """A session replaces its recorder no more often."""
 
 
+@pytest.mark.kills
 async def test_a_process_that_is_killed_while_the_tree_is_held_is_reported_and_replaced():
     left = count("held_kills")
     while left > 0:
-        async with hanging_session() as session:
+        async with own_hanging_session() as session:
             for number in range(min(left, OF_A_SESSION)):
                 await kill(session, VICTIMS[number % len(VICTIMS)])
             left -= OF_A_SESSION
@@ -57,7 +58,7 @@ async def kill(session, kind):
     if kind in LEFT:
         come = await session.client.event("state-changed", lambda d: d["state"] == LEFT[kind], after=at)
         [fault] = [each for each in session.client.named("fault", after=at) if each["kind"] == "process"]
-        assert "SIGKILL" in fault["message"]
+        assert "ended at once" in fault["message"]
     else:
         come = await session.client.event("recording_stopped", lambda d: d["goes_on"], after=at)
         assert session.client.state == State.HELD
@@ -86,6 +87,7 @@ async def test_a_tree_that_is_held_for_long_is_not_called_hung():
         await session.ask("terminate_application")
 
 
+@pytest.mark.kills
 async def test_a_page_that_is_gone_leaves_the_tree_held_and_a_killed_manager_leaves_nothing():
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open(stream=False)

@@ -12,20 +12,19 @@ import pytest
 from executor.child_messages import StartApplication, StartWorld
 from executor.manager.manager import outside_domain_id
 from tests.executor.session.play import DATA, Play
-from tests.executor.session_client import ROOT, SessionClient, manager_process, run_data
-
-DOMAIN_ID = 225
+from tests.executor.session_client import ROOT, run_data
+from tests.executor.warm import warm_session
 
 
 @contextlib.asynccontextmanager
-async def outside_robot():
+async def outside_robot(domain_id):
     """Runs a plain program, with nothing of ROS in its environment but its domain."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "FAST"))}
     process = await asyncio.create_subprocess_exec(
         sys.executable,
         str(ROOT / "tests" / "fakes" / "outside_robot.py"),
         stdout=asyncio.subprocess.PIPE,
-        env=environment | {"ROS_DOMAIN_ID": str(DOMAIN_ID)},
+        env=environment | {"ROS_DOMAIN_ID": str(domain_id)},
     )
     try:
         yield process.stdout
@@ -53,10 +52,9 @@ async def test_the_application_drives_an_outside_robot_and_a_pause_stops_it():
                 pass
 
     async with (
-        outside_robot() as robot,
-        manager_process(env={"ROS_DOMAIN_ID": str(DOMAIN_ID)}) as manager,
+        warm_session(stream=False) as (manager, client),
+        outside_robot(manager.outside_domain_id) as robot,
     ):
-        client = await SessionClient(manager.ready["port"]).open(stream=False)
         assert await client.ask("run", run_data(universe="none")) == "ack"
         await told(robot, lambda speed: speed > 0)
         assert (await named_end(client, "/scan", "publishers")) == ["/outside_robot"]
@@ -70,10 +68,6 @@ async def test_the_application_drives_an_outside_robot_and_a_pause_stops_it():
         await told(robot, lambda speed: speed > 0)
         assert await client.ask("terminate_application") == "ack"
         await told(robot, lambda speed: speed == 0)
-        await client.close()
-
-
-# --- the state machine alone ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("asked", "domain"), [({}, 7), ({"domain_id": 12}, 12)])

@@ -16,6 +16,7 @@ from executor.attached.process import Follower
 from executor.child_messages import decode_from_application, decode_to_application
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair
 from tests.budget import seeds
+from tests.deadline import DEADLINE_S
 from tests.fakes.groot2_publisher import wrong_publisher
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.groot.cpp_program import XML, cpp_program
@@ -26,8 +27,6 @@ from tree_gardener.groot.document import document_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
-
-DEADLINE_S = 60.0
 
 
 class Pulse:

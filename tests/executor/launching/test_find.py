@@ -13,13 +13,15 @@ from executor.launching.find import NotFound, find_command, find_executable
 if TYPE_CHECKING:
     from pathlib import Path
 
+PYTHON = (sys.executable, "-P", "-m", "tree_gardener.ros_script")
+
 
 def test_a_file_of_the_project_is_found_from_its_folder_and_the_launch_files(tmp_path: Path) -> None:
     (tmp_path / "launch").mkdir()
     talker = tmp_path / "launch" / "talker.py"
     talker.write_text("")
     for name in ("launch/talker.py", "talker.py"):
-        assert find_command("", name, tmp_path, tmp_path / "launch") == (sys.executable, str(talker))
+        assert find_command("", name, tmp_path, tmp_path / "launch") == (*PYTHON, str(talker))
 
 
 def test_a_file_outside_of_the_project_is_not(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import pytest
 
 from executor.manager import archive
 from executor.manager.archive import ArchiveError, unpack
+from translator.limits import ARCHIVE_DIRECTORY_BYTES
 
 
 def packed(*entries):
@@ -96,11 +97,16 @@ def test_what_is_not_base64_is_refused(tmp_path):
 
 
 def test_a_directory_of_millions_is_refused_before_it_is_read(tmp_path):
-    whole = bytearray(base64.b64decode(packed(("a", "x"))))
-    for size in (archive.MAX_DIRECTORY_BYTES + 1, 0xFFFFFFFF):
-        struct.pack_into("<L", whole, whole.rfind(b"PK\5\6") + 12, size)
-        with pytest.raises(ArchiveError, match="directory is larger"):
-            unpack(base64.b64encode(bytes(whole)).decode(), tmp_path)
+    whole = base64.b64decode(packed(("a", "x")))
+    start, end = whole.rfind(b"PK\1\2"), whole.rfind(b"PK\5\6")
+    size = ARCHIVE_DIRECTORY_BYTES + 1
+    large, tail = whole[:start] + bytes(size), bytearray(whole[end:])
+    struct.pack_into("<L", tail, 12, size)
+    with pytest.raises(ArchiveError, match="directory is larger"):
+        unpack(base64.b64encode(large + tail).decode(), tmp_path)
+    struct.pack_into("<L", tail, 12, 0xFFFFFFFF)
+    with pytest.raises(ArchiveError):
+        unpack(base64.b64encode(large + tail).decode(), tmp_path)
 
 
 def test_overlapping_entries_count_by_their_unpacked_size(tmp_path, monkeypatch):

@@ -271,9 +271,6 @@ async def test_a_port_in_use_is_an_error():
         await second.close()
 
 
-# --- outboxes -------------------------------------------------------------------------------------
-
-
 async def test_a_slow_client_gets_a_snapshot_in_place_of_a_backlog(monkeypatch):
     monkeypatch.setattr("executor.stream.outbox.MAX_MESSAGES", 5)
     outbox = ControlOutbox(lambda: b"snapshot")

@@ -6,11 +6,13 @@ import contextlib
 import time
 from typing import TYPE_CHECKING, Any
 
+from tests.deadline import DEADLINE_S
+from tests.domains import own_domain_id
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-DOMAIN_ID = 223
-DEADLINE_S = 60.0
+DOMAIN_ID = own_domain_id()
 
 
 class Drive:

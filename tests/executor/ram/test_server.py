@@ -168,9 +168,6 @@ async def test_the_death_of_an_application_is_reported_with_its_state():
         assert (kind, "exit code 4" in text) == ("error", True)
 
 
-# --- translation ----------------------------------------------------------------------------------
-
-
 def test_the_monitor_nests_nodes_by_name():
     from executor.session.mirror import Mirror
 

@@ -18,7 +18,8 @@ from executor.ram.translate import RamError, to_native
     [
         ({"name": "x", "scene": {"name": "Warehouse", "type": "gz"}}, "warehouse"),
         ({"name": "maze", "launch_file_path": ""}, "maze"),
-        ({"name": "x", "scene": {"name": "y", "launch_file_path": "/o/simple_circuit.launch.py"}}, "line"),
+        ({"name": "x", "scene": {"name": "y", "launch_file_path": "/o/simple_circuit.launch.py"}}, "circuit"),
+        ({"name": "Obstacle Avoidance Default"}, "circuit_obstacles"),
         ({"name": "x", "scene": {"name": "y", "type": None}}, "empty"),
     ],
 )

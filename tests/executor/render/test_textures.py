@@ -19,9 +19,10 @@ from executor.render.pieces import Pieces
 from executor.render.tiny import TinyRenderer
 from executor.universes import UniverseError, parse_universe
 from executor.universes.model import TEXTURES
+from executor.world.geometry.pictures import PictureError, image_size
 from executor.world.interface import WorldError
 from executor.world.physics.bullet import BulletWorld
-from executor.world.physics.paint import PaintError, image_size, textures_of
+from executor.world.physics.paint import textures_of
 
 HEAD = (
     "format: bt-studio/universe\nversion: 1\nname: test\nrobots: []\nlights: [{direction: [0, 0.7, -0.7]}]\n"
@@ -175,7 +176,7 @@ def test_a_picture_that_cannot_be_used_is_refused(
 def test_the_size_of_a_jpeg_is_read_without_unpacking_it() -> None:
     data = cv2.imencode(".jpg", np.zeros((30, 50, 3), np.uint8))[1].tobytes()
     assert image_size(data) == (50, 30)
-    with pytest.raises(PaintError):
+    with pytest.raises(PictureError):
         image_size(data[:60])
 
 

@@ -1,0 +1,1 @@
+"""Imports worlds and maps of other programs into universes."""

@@ -17,7 +17,16 @@ from translator.action_kind import (
     qualified_bases,
     without_effect,
 )
-from translator.action_ports import Declarations, assigned, declared_ports, last_name, loop_ports, ports_used
+from translator.action_ports import ATTRIBUTES as PORTS
+from translator.action_ports import (
+    Declarations,
+    assigned,
+    assignments,
+    declared_ports,
+    last_name,
+    loop_ports,
+    ports_used,
+)
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.limits import ACTION_BYTES, megabytes
 from translator.python_source import parse
@@ -154,18 +163,20 @@ class _Inspector:
             return self.result(imports=imports)
         lineage = self.lineage(cls)
         bases = qualified_bases(self.module, lineage)
-        kind = self.kind(lineage, *kind_by_bases(bases))
+        by_bases, base = kind_by_bases(bases)
+        kind = self.kind(lineage, by_bases, base)
         loops = is_loop(bases)
         if not self.is_behaviour(cls):
             self.report("BT0603", cls, name=self.name)
         elif not loops and not self.has_update(cls):
             self.report("BT0604", cls, name=self.name)
+        self.twice(lineage)
         if loops:
             without_effect(lineage, self.report)
         declarations = Declarations.collect(lineage)
         ports = loop_ports(lineage) if loops else declared_ports(declarations, self.report)
         is_open = not loops and not declarations.any
-        least, most = children_of(lineage, kind, self.report)
+        least, most = children_of(lineage, kind, base, self.report)
         return self.result(
             doc=ast.get_docstring(cls) or "",
             kind=kind,
@@ -237,20 +248,28 @@ class _Inspector:
 
     def kind(self, lineage: list[ast.ClassDef], by_bases: str, base: str) -> str:
         """Returns the kind that NODE_KIND names, unless the known `base` is of another kind."""
-        for member in lineage:
-            for node in member.body:
-                value = assigned(node, "NODE_KIND")
-                if value is None:
-                    continue
-                if isinstance(value, ast.Constant) and value.value in KINDS:
-                    kind = KINDS[value.value]
-                    if base and (kind in LIMITS or by_bases in LIMITS) and kind != by_bases:
-                        self.report("BT0618", node, kind=value.value, base=base)
-                        return by_bases
-                    return kind
-                self.report("BT0606", node, kinds=", ".join(KINDS))
-                return by_bases
-        return by_bases
+        found = assignments(lineage, "NODE_KIND")
+        if not found:
+            return by_bases
+        node, value = found[-1]
+        if not isinstance(value, ast.Constant):
+            self.report("BT0647", node, kinds=", ".join(KINDS))
+            return by_bases
+        if value.value not in KINDS:
+            self.report("BT0606", node, kinds=", ".join(KINDS))
+            return by_bases
+        kind = KINDS[value.value]
+        if base and (kind in LIMITS or by_bases in LIMITS) and kind != by_bases:
+            self.report("BT0618", node, kind=value.value, base=base)
+            return by_bases
+        return kind
+
+    def twice(self, lineage: list[ast.ClassDef]) -> None:
+        """Reports attributes for the engine that a class assigns more than once."""
+        for name in (*PORTS, "NODE_KIND", "MIN_CHILDREN", "MAX_CHILDREN", "RETURNS", "ELEMENT"):
+            found = assignments(lineage, name)
+            if len(found) > 1:
+                self.report("BT0648", found[0][0], attribute=name, line=found[-1][0].lineno)
 
 
 _BASES_WITHOUT_UPDATE = {

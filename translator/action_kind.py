@@ -10,13 +10,14 @@ import ast
 from typing import TYPE_CHECKING
 
 from translator.action_ports import ATTRIBUTES as PORTS
-from translator.action_ports import assigned
+from translator.action_ports import assigned, assignments
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
 KINDS = {
     "Action": "action",
+    "StatefulAction": "action",
     "SyncAction": "action",
     "Condition": "condition",
     "Control": "control",
@@ -33,6 +34,7 @@ _DECORATORS = {
     *("tree_gardener.node.Decorator", *_LOOPS),
 }
 _PY_TREES_DECORATORS = "py_trees.decorators."
+_ADDING = {"add_child", "add_children", "insert_child", "prepend_child"}
 _BEHAVIOURS = {"py_trees.behaviour.Behaviour", "py_trees.Behaviour"}
 
 
@@ -89,19 +91,25 @@ def without_effect(lineage: Iterable[ast.ClassDef], report: Callable[..., None])
 
 
 def children_of(
-    lineage: Iterable[ast.ClassDef], kind: str, report: Callable[..., None]
+    lineage: Sequence[ast.ClassDef], kind: str, base: str, report: Callable[..., None]
 ) -> tuple[int, int | None]:
-    """Returns the smallest and the largest number of children; None means any number."""
+    """Returns the smallest and the largest number of children; None means any number.
+
+    A composite or decorator of py_trees may make its children itself, in its constructor.
+    """
     if kind not in LIMITS:
         return 0, 0
     least, most = LIMITS[kind]
+    if base.startswith("py_trees.") and (init := _constructor(lineage)) is not None:
+        if kind == "control" and _adds_children(init):
+            return 0, most
+        if kind == "decorator" and not _takes_child(init):
+            return 0, 0
     given: dict[str, tuple[ast.stmt, ast.expr]] = {}
-    for cls in lineage:
-        for node in cls.body:
-            for name in ("MIN_CHILDREN", "MAX_CHILDREN"):
-                value = assigned(node, name)
-                if value is not None:
-                    given.setdefault(name, (node, value))
+    for name in ("MIN_CHILDREN", "MAX_CHILDREN"):
+        found = assignments(lineage, name)
+        if found:
+            given[name] = found[-1]
     if kind == "decorator":
         for name, (node, value) in given.items():
             if not (isinstance(value, ast.Constant) and value.value == 1):
@@ -109,6 +117,34 @@ def children_of(
         return least, most
     least = _number(given, "MIN_CHILDREN", report, least=1) or least
     return least, _number(given, "MAX_CHILDREN", report, least=least)
+
+
+def _constructor(lineage: Iterable[ast.ClassDef]) -> ast.FunctionDef | None:
+    """Returns the constructor that the most derived of some classes has."""
+    return next(
+        (
+            node
+            for cls in lineage
+            for node in cls.body
+            if isinstance(node, ast.FunctionDef) and node.name == "__init__"
+        ),
+        None,
+    )
+
+
+def _adds_children(init: ast.FunctionDef) -> bool:
+    """Returns whether a constructor gives its composite children."""
+    calls = [node for node in ast.walk(init) if isinstance(node, ast.Call)]
+    methods = {call.func.attr for call in calls if isinstance(call.func, ast.Attribute)}
+    names = {keyword.arg for call in calls for keyword in call.keywords}
+    return not methods.isdisjoint(_ADDING) or "children" in names
+
+
+def _takes_child(init: ast.FunctionDef) -> bool:
+    """Returns whether a constructor takes the child of its decorator."""
+    given = init.args
+    names = {each.arg for each in (*given.posonlyargs, *given.args, *given.kwonlyargs)}
+    return "child" in names or given.kwarg is not None
 
 
 def _number(

@@ -37,9 +37,18 @@ RESERVED = frozenset(("name", "ID"))
 Report = Callable[..., None]
 
 
+_FORBIDDEN = frozenset("/\\:*?|.<>&\"'")
+
+
 def is_port_name(name: str) -> bool:
-    """Returns whether a port can have this name: an attribute of XML that means nothing else."""
+    """Returns whether a class can declare this port: as an attribute of XML, it means nothing else."""
     return name not in RESERVED and not name.startswith("_") and is_xml_name(name)
+
+
+def is_read_as_port(name: str) -> bool:
+    """Returns whether the engine reads an attribute as a port that no class declares; it ignores others."""
+    is_plain = name[:1].isascii() and name[:1].isalpha() and not _FORBIDDEN.intersection(name)
+    return is_plain and is_port_name(name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,14 +64,10 @@ class Declarations:
 
     @staticmethod
     def collect(lineage: Iterable[ast.ClassDef]) -> Declarations:
-        """Finds the nearest assignment of each attribute."""
-        nearest: dict[str, ast.expr] = {}
-        for cls in lineage:
-            for node in cls.body:
-                target, value = _assignment(node)
-                if target in ATTRIBUTES and value is not None:
-                    nearest.setdefault(target, value)
-        return Declarations(tuple((name, nearest[name]) for name in ATTRIBUTES if name in nearest))
+        """Finds the assignment of each attribute that counts."""
+        line = list(lineage)
+        found = ((name, assignments(line, name)) for name in ATTRIBUTES)
+        return Declarations(tuple((name, each[-1][1]) for name, each in found if each))
 
 
 def declared_ports(declarations: Declarations, report: Report) -> tuple[PortModel, ...]:
@@ -187,14 +192,6 @@ def _constant(node: ast.expr | None) -> object:
     return node.value if isinstance(node, ast.Constant) else None
 
 
-def _assignment(node: ast.stmt) -> tuple[str, ast.expr | None]:
-    if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-        return node.targets[0].id, node.value
-    if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-        return node.target.id, node.value
-    return "", None
-
-
 def assigned(node: ast.stmt, name: str) -> ast.expr | None:
     """Returns the value that a statement assigns to a name, or None if it assigns none."""
     if isinstance(node, ast.Assign):
@@ -205,10 +202,19 @@ def assigned(node: ast.stmt, name: str) -> ast.expr | None:
     return None
 
 
+def assignments(lineage: Iterable[ast.ClassDef], name: str) -> list[tuple[ast.stmt, ast.expr]]:
+    """Returns the assignments of an attribute in the nearest class that has one; the last one counts."""
+    for cls in lineage:
+        found = [(node, value) for node in cls.body if (value := assigned(node, name)) is not None]
+        if found:
+            return found
+    return []
+
+
 def loop_ports(lineage: Iterable[ast.ClassDef]) -> tuple[PortModel, ...]:
     """Returns the ports of a LoopNode; its `ELEMENT` is the type of the elements."""
-    elements = (assigned(node, "ELEMENT") for cls in lineage for node in cls.body)
-    element = _type(next((value for value in elements if value is not None), None)) or "any"
+    elements = assignments(lineage, "ELEMENT")
+    element = _type(elements[-1][1] if elements else None) or "any"
     queue = f"list[{element}]" if element != "any" and not element.startswith("list") else "any"
     return (
         PortModel("queue", "inout", queue, required=True, description="A queue of the blackboard."),

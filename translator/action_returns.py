@@ -81,10 +81,8 @@ def _returns_of(source: str, name: str) -> Returns:
 
 def _of_class(cls: ast.ClassDef) -> Returns:
     known, named = _of_update(cls)
-    is_sync = any(
-        isinstance(value, ast.Constant) and value.value in {"SyncAction", "Condition"}
-        for _, value in _assigned(cls, "NODE_KIND")
-    )
+    kind = next((value for _, value in reversed(_assigned(cls, "NODE_KIND"))), None)
+    is_sync = isinstance(kind, ast.Constant) and kind.value in {"SyncAction", "Condition"}
     declared = _assigned(cls, RETURNS)
     if not declared:
         return Returns(known, named, is_sync=is_sync, line=cls.lineno)

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from translator.python_source import parse
 
-__all__ = ["WaitingCall", "waiting_calls"]
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["WaitingCall", "dotted_name", "imported_names", "waiting_calls"]
 
 METHODS: Final = ("update", "initialise")
 CALLS: Final = frozenset(
@@ -56,7 +59,7 @@ def waiting_calls(source: str, name: str) -> list[WaitingCall]:
     found = next((n for n in module.body if isinstance(n, ast.ClassDef) and n.name == name), None)
     if found is None:
         return []
-    names = _imported(module)
+    names = imported_names(module)
     methods, functions = _functions(found), _functions(module)
     calls: dict[int, WaitingCall] = {}
     for method in METHODS:
@@ -64,7 +67,7 @@ def waiting_calls(source: str, name: str) -> list[WaitingCall]:
         seen = set(map(id, waiting))
         while waiting:
             for call in _calls(waiting.pop()):
-                dotted = _dotted(call.func, names)
+                dotted = dotted_name(call.func, names)
                 if _waits(dotted):
                     calls.setdefault(call.lineno, WaitingCall(dotted, method, call.lineno))
                 own = methods.get(dotted.removeprefix("self.")) if dotted.startswith("self.") else None
@@ -92,7 +95,7 @@ def _calls(function: ast.AST) -> list[ast.Call]:
     return [node for node in ast.walk(function) if isinstance(node, ast.Call)]
 
 
-def _imported(module: ast.Module) -> dict[str, str]:
+def imported_names(module: ast.Module) -> dict[str, str]:
     """Returns what each imported name means, wherever it is imported."""
     names: dict[str, str] = {}
     for node in ast.walk(module):
@@ -106,7 +109,7 @@ def _imported(module: ast.Module) -> dict[str, str]:
     return names
 
 
-def _dotted(node: ast.expr, names: dict[str, str]) -> str:
+def dotted_name(node: ast.expr, names: Mapping[str, str]) -> str:
     """Returns a called name with its module, as in `time.sleep`; "?.x" for a method of an expression."""
     parts: list[str] = []
     while isinstance(node, ast.Attribute):

@@ -5,22 +5,25 @@ from __future__ import annotations
 import io
 import os
 import stat
-import zipfile
-import zlib
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.foreign import is_of_tool
-from translator.limits import ARCHIVED_FILE_BYTES, FILES_PER_PROJECT, PROJECT_BYTES, megabytes
+from translator.limits import (
+    ARCHIVE_ENTRIES,
+    ARCHIVED_FILE_BYTES,
+    FILES_PER_PROJECT,
+    PROJECT_BYTES,
+    megabytes,
+)
+from translator.unzip import DAMAGED, ArchiveTooLargeError, chunks, open_zip
 
 if TYPE_CHECKING:
+    import zipfile
     from collections.abc import Iterator
 
 SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules"}
-# zipfile raises NotImplementedError for an unknown compression, RuntimeError for encryption.
-_DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
-_CHUNK = 1024 * 1024
 
 
 def _error(code: str, file: str, **values: object) -> TranslatorError:
@@ -50,9 +53,12 @@ def read_zip(raw: bytes, *, file: str = "project.zip") -> dict[str, bytes]:
             large.
     """
     try:
-        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+        with open_zip(io.BytesIO(raw)) as archive:
             return without_top_folder(dict(_entries(archive, file)))
-    except _DAMAGED:
+    except ArchiveTooLargeError:
+        limit = f"{ARCHIVE_ENTRIES} entries or {megabytes(PROJECT_BYTES)}"
+        raise _error("BT0922", file, limit=limit) from None
+    except DAMAGED:
         raise _error("BT0920", file) from None
 
 
@@ -70,22 +76,9 @@ def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]
         if entry.is_dir() or is_of_tool(path) or not SKIPPED_FOLDERS.isdisjoint(path.split("/")):
             continue
         seen.add(path)
-        data = _bounded(archive, entry, file, PROJECT_BYTES - total)
+        data = b"".join(chunks(archive, entry, min(ARCHIVED_FILE_BYTES, PROJECT_BYTES - total)))
         total += len(data)
         yield path, data
-
-
-def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: int) -> bytes:
-    """Reads an entry in pieces, since the size in its header may be wrong on purpose."""
-    parts: list[bytes] = []
-    size = 0
-    with archive.open(entry) as stream:
-        while chunk := stream.read(_CHUNK):
-            size += len(chunk)
-            if size > ARCHIVED_FILE_BYTES or size > left:
-                raise _error("BT0922", file, limit=megabytes(PROJECT_BYTES))
-            parts.append(chunk)
-    return b"".join(parts)
 
 
 def without_top_folder(files: dict[str, bytes]) -> dict[str, bytes]:

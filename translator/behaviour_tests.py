@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING, Any
 
-from translator.action_returns import returned_statuses
+from translator.action_returns import returned_statuses, returns_of
 from translator.check import check
 from translator.diagnostic import errors_in
 from translator.enums import enum_lines
-from translator.python_source import parse
 from translator.shared_modules import sources_of
 from translator.xml.write import write_document
-from translator.yaml_text import YamlError, read_yaml
+from translator.yaml_text import YamlError, YamlText, read_yaml
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from translator.action import ActionModel
     from translator.diagnostic import Diagnostic as TreeDiagnostic
@@ -32,12 +30,18 @@ def paths_of_tests(files: Mapping[str, bytes]) -> list[str]:
     return sorted(path for path in files if path.startswith(FOLDER) and path.endswith(ENDINGS))
 
 
-def errors_before_tests(project: Project) -> tuple[TreeDiagnostic, ...]:
+def errors_before_tests(
+    project: Project, checked: Sequence[TreeDiagnostic] | None = None
+) -> tuple[TreeDiagnostic, ...]:
     """Returns the errors that keep the trees from being tested.
 
     A folder of trees without a main one, such as a library, can be tested if its tests name their trees.
+
+    Args:
+        project: the project.
+        checked: what `check` found in it; without it, the project is checked now.
     """
-    errors = errors_in(check(project))
+    errors = errors_in(check(project) if checked is None else checked)
     return tuple(found for found in errors if found.code != "BT0100" or not project.trees)
 
 
@@ -50,24 +54,20 @@ def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], lis
         project: the project.
         real: whether the job takes the sources of the actions along, for leaves that are `real`.
     """
-    from tree_gardener.errors import Diagnostic  # noqa: PLC0415 - the engine loads py_trees
-
-    files: list[dict[str, Any]] = []
-    problems: list[Diagnostic] = []
-    for path in paths_of_tests(project.files):
-        try:
-            read = read_yaml(project.files[path])
-        except YamlError as error:
-            problems.append(
-                Diagnostic("TG900", error.message, file=path, line=error.line, column=error.column)
-            )
-            continue
-        places = [[list(part), *place] for part, place in read.places.items()]
-        files.append({"name": path, "document": read.value, "places": places})
+    read, problems = read_files(project.files)
+    files = [
+        {
+            "name": path,
+            "document": text.value,
+            "places": [[list(part), *place] for part, place in text.places.items()],
+        }
+        for path, text in read.items()
+    ]
     job = {
         "format": "bt-studio/behaviour-tests",
         "version": 1,
         "tick_hz": float(project.settings.tick_hz),
+        "on_error": project.settings.on_error,
         "files": files,
         "nodes": {name: leaf_model(action) for name, action in sorted(project.actions.items())},
         "ports": {
@@ -80,31 +80,29 @@ def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], lis
     return job, problems
 
 
+def read_files(files: Mapping[str, bytes]) -> tuple[dict[str, YamlText], list[Diagnostic]]:
+    """Returns the documents of the files of tests, and the files that are no YAML."""
+    from tree_gardener.errors import Diagnostic  # noqa: PLC0415 - the engine loads py_trees
+
+    read: dict[str, YamlText] = {}
+    problems: list[Diagnostic] = []
+    for path in paths_of_tests(files):
+        try:
+            read[path] = read_yaml(files[path])
+        except YamlError as error:
+            problems.append(
+                Diagnostic("TG900", error.message, file=path, line=error.line, column=error.column)
+            )
+    return read, problems
+
+
 def leaf_model(action: ActionModel) -> dict[str, Any]:
     """Returns the model of an action for tests, in the form that the engine's `LeafModel.to_json` writes."""
     return {
-        "kind": _KINDS.get(action.kind) or ("SyncAction" if _is_sync(action) else "Action"),
+        "kind": _KINDS.get(action.kind)
+        or ("SyncAction" if returns_of(action.source, action.name).is_sync else "Action"),
         "ports": [[port.direction, port.name, port.type, port.default] for port in action.ports],
         "open": action.open,
         "returns": sorted(returned_statuses(action.source, action.name)),
         "children": [action.min_children, action.max_children],
     }
-
-
-def _is_sync(action: ActionModel) -> bool:
-    """Returns whether the source says `NODE_KIND = "SyncAction"`; the model holds no such difference."""
-    if "SyncAction" not in action.source:
-        return False
-    try:
-        module = parse(action.source, action.path)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return False
-    return any(
-        isinstance(item, ast.Assign)
-        and isinstance(item.value, ast.Constant)
-        and item.value.value == "SyncAction"
-        and any(isinstance(target, ast.Name) and target.id == "NODE_KIND" for target in item.targets)
-        for cls in module.body
-        if isinstance(cls, ast.ClassDef) and cls.name == action.name
-        for item in cls.body
-    )

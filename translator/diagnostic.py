@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 TABLE_PATH = Path(__file__).with_name("diagnostics.json")
 
@@ -163,6 +163,6 @@ def diagnostic(code: str, place: Place, **values: object) -> Diagnostic:
     )
 
 
-def errors_in(diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> tuple[Diagnostic, ...]:
+def errors_in(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Returns those of the diagnostics that are errors."""
     return tuple(found for found in diagnostics if found.is_error)

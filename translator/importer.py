@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import posixpath
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
@@ -13,62 +12,22 @@ from translator.catalog import NodeModel, builtins, nearest
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.enums import ENUMS_FILE, enums_text
-from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
+from translator.limits import NAME_CHARACTERS, oversize
 from translator.nav2 import nav2_models, nav2_source
 from translator.project import Project, assemble
 from translator.proposal import propose
 from translator.settings import PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
 from translator.tree import Tree, used_types
-from translator.xml.read import Document, read_document
+from translator.xml.includes import Reading, uncalled
+from translator.xml.py_trees import class_source, with_defaults
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
+    from translator.xml.read import Document
 
 IMPORTS = "imports/"
-
-
-@dataclass(slots=True)
-class _Import:
-    """Documents read so far, by path, and the findings in them."""
-
-    files: Mapping[str, bytes]
-    documents: dict[str, Document] = field(default_factory=dict)
-    found: list[Diagnostic] = field(default_factory=list)
-
-    def read(self, path: str) -> None:
-        """Reads a file and all files that it includes, each once."""
-        waiting = [path]
-        while waiting:
-            current = waiting.pop()
-            if current in self.documents:
-                continue
-            document = read_document(self.files[current], file=current)
-            self.documents[current] = document
-            self.found.extend(document.diagnostics)
-            waiting.extend(reversed(list(self.included(document))))
-
-    def included(self, document: Document) -> Iterable[str]:
-        """Yields the files that a document includes; reports those that cannot be read."""
-        folder = posixpath.dirname(document.file)
-        for element in document.includes:
-            place = Place(document.file, line=element.line, column=element.column)
-            path = element.attributes.get("path", "")
-            package = element.attributes.get("ros_pkg", "")
-            target = posixpath.normpath(posixpath.join(folder, path.replace("\\", "/")))
-            if not path:
-                self.found.append(diagnostic("BT0730", place))
-            elif package:
-                self.found.append(diagnostic("BT0731", place, package=package, path=path))
-            elif posixpath.isabs(path) or target.startswith("../"):
-                self.found.append(diagnostic("BT0732", place, path=path))
-            elif target not in self.files:
-                self.found.append(diagnostic("BT0733", place, path=path))
-            elif len(self.documents) > XML_INCLUDES:
-                self.found.append(diagnostic("BT0708", place, limit=XML_INCLUDES))
-            else:
-                yield target
 
 
 def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
@@ -76,6 +35,7 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     *,
     file: str = "tree.xml",
     included: Mapping[str, bytes] | None = None,
+    main: str = "",
     actions: Mapping[str, bytes] | None = None,
     stubs: bool = True,
     places: str = IMPORTS,
@@ -86,6 +46,7 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         xml: The document.
         file: Its path, to which the paths of `<include>` are relative.
         included: The files that it may include, by path.
+        main: The main tree; if it is "", the one that the document names, or the first that no other calls.
         actions: Sources of actions by file name, such as `Forward.py`.
         stubs: Whether a missing action gets the source of Nav2's node of that name, if there is one, or a
             stub.
@@ -96,9 +57,39 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         TranslatorError: If the text is not a readable behaviour tree.
     """
     raw = xml.encode("utf-8", "surrogatepass") if isinstance(xml, str) else xml
-    work = _Import({**(included or {}), file: raw})
-    work.read(file)
-    trees, settings = _merged(work, file)
+    files = {**(included or {}), file: raw}
+    return from_files([file], files, main=main, actions=actions, stubs=stubs, places=places)
+
+
+def from_files(  # noqa: PLR0913 - each is a separate choice, and keyword-only
+    entries: Sequence[str],
+    files: Mapping[str, bytes],
+    *,
+    name: str = "",
+    main: str = "",
+    actions: Mapping[str, bytes] | None = None,
+    stubs: bool = True,
+    places: str = IMPORTS,
+) -> Project:
+    """Makes a project from documents that a program reads one after the other, as `from_xml` from one.
+
+    Args:
+        entries: The paths of the documents.
+        files: These, and the files that they may include, by path.
+        name: The name of the project; if it is "", that of the document with the main tree.
+        main: The main tree, or "".
+        actions: As for `from_xml`.
+        stubs: As for `from_xml`.
+        places: As for `from_xml`.
+
+    Raises:
+        TranslatorError: If a document is not a readable behaviour tree, or the main tree has to be named.
+    """
+    work = Reading(files)
+    for entry in entries:
+        work.read(entry)
+    file = entries[0]
+    trees, settings = _merged(work, list(entries), main, name)
     models = [model for document in work.documents.values() for model in document.models.values()]
     if not trees and models:
         work.found.append(diagnostic("BT0741", Place(file, line=1, column=1), count=len(models)))
@@ -158,40 +149,84 @@ def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]
     return files
 
 
-def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
-    """Joins the trees of all documents; if two have the same id, the first one is used."""
+def _merged(work: Reading, entries: list[str], main: str, name: str) -> tuple[list[Tree], Settings]:
+    """Joins the trees of all documents; if two have the same ID, the one that is read last is used."""
     trees: dict[str, Tree] = {}
+    replaced = work.replaced()
     for document in work.documents.values():
         for item in document.trees:
+            place = Place(document.file, tree=item.tree.id, line=item.element.line, column=1)
             if len(item.tree.id) > NAME_CHARACTERS:
-                place = Place(document.file, line=item.element.line, column=1)
                 raise TranslatorError([*work.found, diagnostic("BT0736", place, limit=NAME_CHARACTERS)])
-            if item.tree.id in trees:
-                place = Place(document.file, tree=item.tree.id, line=item.element.line)
-                work.found.append(
-                    diagnostic("BT0015", place, id=item.tree.id, other=trees[item.tree.id].file)
-                )
-                continue
-            trees[item.tree.id] = item.tree
-    first = work.documents[file]
-    named, main = main_tree_of(work.documents.values())
-    if main != named and (named or len(trees) > 1):
-        work.found.append(diagnostic("BT0735", Place(file, line=1), main=named or "(none)", chosen=main))
-    name = first.source.root.attributes.get("project_name") or PurePosixPath(file).stem
+            other = replaced.get((document.file, item.tree.id))
+            if other is not None:
+                work.found.append(diagnostic("BT0726", place, id=item.tree.id, other=other.file))
+            else:
+                trees[item.tree.id] = item.tree
+    if main or len(entries) > 1:
+        main = _chosen(work, entries, main)
+    else:
+        named, main = main_tree_of(work.documents.values())
+        if main != named and (named or len(trees) > 1):
+            place = Place(entries[0], line=1)
+            work.found.append(diagnostic("BT0735", place, main=named or "(none)", chosen=main))
+    first = work.documents[entries[0]].source.root if len(entries) == 1 else None
+    name = (
+        (first.attributes.get("project_name", "") if first else "") or name or PurePosixPath(entries[0]).stem
+    )
+    foreign = [document for document in work.documents.values() if document.is_of_py_trees]
+    if foreign:
+        trees = with_defaults(trees, _ids(foreign), main)
     return list(trees.values()), Settings(
         name=name[:NAME_CHARACTERS] or "Untitled", main_tree=main or "MainTree"
     )
 
 
+def _chosen(work: Reading, entries: list[str], main: str) -> str:
+    """Returns the main tree of several documents: the named one, or the only one that no other calls.
+
+    Raises:
+        TranslatorError: It is not among the trees, or has to be chosen: of trees with one ID, by the file.
+    """
+    documents = work.documents.values()
+    named, tops = uncalled(documents)
+    both = [tree_id for tree_id in named if tree_id in tops]
+    choices = tops if len(tops) == 1 else both or tops or named or _ids(documents)
+    files = {
+        tree_id: [doc.file for doc in documents if any(item.tree.id == tree_id for item in doc.trees)]
+        for tree_id in choices
+    }
+    if main:
+        if main in _ids(documents):
+            return main
+        place = Place(entries[0], line=1, column=1)
+        raise TranslatorError([diagnostic("BT0727", place, main=main, choices=", ".join(choices))])
+    if len(choices) == 1 and len(set(files[choices[0]]) & set(entries)) == 1:
+        return choices[0]
+    raise TranslatorError(
+        [
+            diagnostic(
+                *("BT0924", Place(file, tree=tree_id, line=1, column=1)),
+                choice=tree_id if len(files[tree_id]) == 1 else file,
+            )
+            for tree_id in choices
+            for file in files[tree_id]
+        ]
+    )
+
+
+def _ids(documents: Iterable[Document]) -> list[str]:
+    return list(dict.fromkeys(item.tree.id for document in documents for item in document.trees))
+
+
 def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
     """Returns the main tree that the documents name, and the one to use: the same, if it exists."""
     documents = list(documents)
-    trees = {item.tree.id: item.tree for document in documents for item in document.trees}
+    trees = _ids(documents)
     named = next((document.main for document in documents if document.main), "")
     if named in trees or not trees:
         return named, named
-    called = {node.tree for tree in trees.values() for node in tree.subtree_calls()}
-    return named, next((tree_id for tree_id in trees if tree_id not in called), next(iter(trees)))
+    return named, next(iter(uncalled(documents)[1]), trees[0])
 
 
 def _actions(
@@ -217,6 +252,12 @@ def _actions(
         path = f"actions/{type_}.py"
         if type_ in nav2 and (source := nav2_source(type_)) is not None:
             files.setdefault(path, source.encode())
+            continue
+        if (
+            any(document.is_of_py_trees for document in documents)
+            and (made := class_source(type_)) is not None
+        ):
+            files.setdefault(path, made)
             continue
         model = models.get(type_) or nav2.get(type_)
         if model is None and type_ not in kinds and use.children and nearest(type_, _with_children()):

@@ -41,6 +41,7 @@ class StatedLimit(NamedTuple):
 _FILE: Final = json.loads(TABLE_PATH.read_text(encoding="utf-8"))
 TABLE: Final[Mapping[str, Limit]] = {row["name"]: Limit(**row) for row in _FILE["limits"]}
 RECORDINGS: Final = tuple(StatedLimit(**row) for row in _FILE["recordings"])
+WORLDS: Final = tuple(StatedLimit(**row) for row in _FILE["worlds"])
 
 NODES_PER_TREE: Final = TABLE["nodes_per_tree"].value
 NODES_PER_PROJECT: Final = TABLE["nodes_per_project"].value
@@ -51,6 +52,8 @@ FILE_BYTES: Final = TABLE["file_bytes"].value
 PROJECT_BYTES: Final = TABLE["project_bytes"].value
 FILES_PER_PROJECT: Final = TABLE["files_per_project"].value
 ARCHIVED_FILE_BYTES: Final = TABLE["archived_file_bytes"].value
+ARCHIVE_DIRECTORY_BYTES: Final = TABLE["archive_directory_bytes"].value
+ARCHIVE_ENTRIES: Final = TABLE["archive_entries"].value
 ACTION_BYTES: Final = TABLE["action_bytes"].value
 XML_BYTES: Final = TABLE["xml_bytes"].value
 XML_ELEMENTS: Final = TABLE["xml_elements"].value

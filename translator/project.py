@@ -6,12 +6,12 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 from weakref import WeakKeyDictionary
 
 from translator.action import KEPT_BYTES, ActionModel, inspect_action
 from translator.catalog import NodeModel, PortModel, builtins
-from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.diagnostic import Diagnostic, Place, Severity, TranslatorError, diagnostic
 from translator.diagram import diagram_path, restore
 from translator.enums import ENUMS_FILE, read_enums, with_enums
 from translator.foreign import without_tools
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     from translator.tree import Tree
 
+
+_File = TypeVar("_File")
 
 WORLD_FOLDERS = ("evaluations/", "universes/", "robots/", "assets/")
 """Folders that decide in which worlds a project is evaluated, and by which judge."""
@@ -108,7 +110,7 @@ def load(files: Mapping[str, bytes]) -> Project:
     return Project(settings, trees, actions, dict(files), tuple(found), enums)
 
 
-def in_worlds_of(judge: Mapping[str, bytes], files: Mapping[str, bytes]) -> dict[str, bytes]:
+def in_worlds_of(judge: Mapping[str, _File], files: Mapping[str, _File]) -> dict[str, _File]:
     """Returns files of a project, with the evaluations, universes, robots and assets of another version."""
     kept = {path: data for path, data in files.items() if not path.startswith(WORLD_FOLDERS)}
     return kept | {path: data for path, data in judge.items() if path.startswith(WORLD_FOLDERS)}
@@ -228,9 +230,14 @@ def _load_actions(
             continue
         if name not in used and _is_shared_module(model):
             continue
-        found.extend(model.diagnostics)
+        found.extend(model.diagnostics if name in used else map(_of_unused, model.diagnostics))
         actions[name] = with_enums(model, enums) if enums else model
     return actions
+
+
+def _of_unused(found: Diagnostic) -> Diagnostic:
+    """Returns a finding about an action that no tree uses: no run refuses its kind."""
+    return replace(found, severity=Severity.WARNING) if found.code == "BT0606" else found
 
 
 def _imported_models(files: Mapping[str, bytes]) -> dict[str, NodeModel]:

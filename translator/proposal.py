@@ -25,6 +25,8 @@ _DRIVING: Final = frozenset({"Twist", "TwistStamped", "Odometry", "Imu"})
 _MAPS: Final = frozenset({"OccupancyGrid", "Path", "NavigateToPose"})
 _NEAR_TOPICS: Final = ("/scan", "/bumper")
 _PAN_TOPIC: Final = "/camera/pan/command"
+_OF_F1: Final = {"/cam_f1_left/image_raw": "circuit", "/f1/laser/scan": "circuit_obstacles"}
+"""The topics that only the F1 has, each with its circuit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,7 @@ def propose(actions: Mapping[str, bytes], *, hints: Iterable[str] = ()) -> Propo
     heard = [use for use in uses if not use.is_published]
     words = " ".join((*hints, *texts)).lower()
     for universe, chosen in (
+        *((_OF_F1[use.topic], [use]) for use in heard if use.topic in _OF_F1),
         ("line" if "line" in words else "person_in_green", [use for use in heard if use.type in _CAMERA]),
         (
             "walled_room",

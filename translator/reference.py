@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from translator.diagnostic import rules
-from translator.limits import RECORDINGS, TABLE, Limit, StatedLimit, megabytes
+from translator.limits import RECORDINGS, TABLE, WORLDS, Limit, StatedLimit, megabytes
 from translator.schema import SCHEMAS, json_schema
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "reference"
@@ -80,6 +80,12 @@ def limits_page() -> str:
         "| limit | of |",
         "| --- | --- |",
         *(f"| {_shown(row)} | {row.what} |" for row in RECORDINGS),
+        "",
+        "## Imported worlds and maps",
+        "",
+        "| limit | of |",
+        "| --- | --- |",
+        *(f"| {_shown(row)} | {row.what} |" for row in WORLDS),
     ]
     return "\n".join(lines) + "\n"
 

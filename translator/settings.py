@@ -74,7 +74,12 @@ def restore_settings(document: Any) -> tuple[Settings, tuple[Diagnostic, ...]]:
     if not isinstance(document, dict):
         return Settings(), (diagnostic("BT0004", place, kind="no object"),)
     found: list[Diagnostic] = []
-    rows = {clean(key): _clean_value(value) for key, value in document.items()}
+    try:
+        rows = {clean(key): _clean_value(value) for key, value in document.items()}
+    except RecursionError:
+        return Settings(), (
+            diagnostic("BT0001", Place(PROJECT_FILE, line=1), problem="it is nested too deeply"),
+        )
     for _ in range(len(Settings.model_fields) + 1):
         try:
             return Settings.model_validate(rows), tuple(found)

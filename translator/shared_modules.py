@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import contextlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Final
@@ -26,12 +26,10 @@ class Wanted:
     Attributes:
         name: the name of the module.
         line: the line of the import.
-        is_certain: whether it must be there: it can be no library of that name, and no `try` surrounds it.
     """
 
     name: str
     line: int
-    is_certain: bool
 
 
 @dataclass(frozen=True)
@@ -50,14 +48,7 @@ def imports_of(source: str) -> tuple[Wanted, ...]:
         module = parse(source, "<action>")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ()
-    tried = {
-        inner for node in ast.walk(module) if isinstance(node, ast.Try) for inner in ast.walk(node)
-    }  # such an import may fail
-    return tuple(
-        replace(found, is_certain=found.is_certain and node not in tried)
-        for node in ast.walk(module)
-        for found in _wanted(node)
-    )
+    return tuple(found for node in ast.walk(module) for found in _wanted(node))
 
 
 def _wanted(node: ast.AST) -> Iterator[Wanted]:
@@ -71,15 +62,15 @@ def _wanted(node: ast.AST) -> Iterator[Wanted]:
         else:
             for alias in node.names:
                 if alias.name != "*":
-                    yield Wanted(alias.name, node.lineno, is_certain=True)
+                    yield Wanted(alias.name, node.lineno)
 
 
 def _named(name: str, line: int) -> Iterator[Wanted]:
     first, _, rest = name.partition(".")
     if first != PACKAGE:
-        yield Wanted(first, line, is_certain=False)
+        yield Wanted(first, line)
     elif rest:
-        yield Wanted(rest.partition(".")[0], line, is_certain=True)
+        yield Wanted(rest.partition(".")[0], line)
 
 
 def shared_modules(project: Project, used: Iterable[str]) -> list[SharedModule]:
@@ -95,20 +86,6 @@ def shared_modules(project: Project, used: Iterable[str]) -> list[SharedModule]:
                 found.add(wanted.name)
                 waiting.append(wanted.name)
     return [SharedModule(name, *sources[name]) for name in sorted(found)]
-
-
-def lost_imports(project: Project, used: Iterable[str]) -> Iterator[tuple[str, Wanted]]:
-    """Yields the imports from `actions/` of some actions, and of what they import, that find no file there.
-
-    Each with the path of the file that imports.
-    """
-    sources = _sources(project.files)
-    actions = list(used)
-    for name in [*actions, *(module.name for module in shared_modules(project, actions))]:
-        path, source = sources.get(name, ("", ""))
-        for wanted in imports_of(source):
-            if wanted.is_certain and wanted.name not in sources:
-                yield path, wanted
 
 
 def sources_of(project: Project) -> dict[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from functools import lru_cache
+from typing import Final
 from xml.parsers import expat
 
 # XML 1.0 has no way to write these, not even as a character reference.
@@ -52,3 +53,13 @@ def is_xml_name(name: str) -> bool:
     except expat.ExpatError:
         return False
     return True
+
+
+_SHOWN: Final = 80
+
+
+def excerpt(code: str, offset: int) -> str:
+    """Returns the 80 characters of a script round an offset, as messages show them."""
+    start = max(0, min(offset - _SHOWN // 2, len(code) - _SHOWN))
+    before, after = "…" if start else "", "…" if start + _SHOWN < len(code) else ""
+    return f"{before}{code[start : start + _SHOWN]}{after}"

@@ -21,7 +21,7 @@ PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
 POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
 EMPTY: Mapping[str, str] = {}
-BLANKS = " \t\r\n"  # those of XML; other whitespace belongs to the text
+BLANKS = " "  # other whitespace belongs to the text
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,11 +179,16 @@ def pointer(text: str, port: str = "") -> str | None:
 
     `{=}` means the entry with the name of the port. Outer blanks are permitted, as in BT.CPP.
     """
+    key = bare_pointer(text)
+    return port if key == "=" else key
+
+
+def bare_pointer(text: str) -> str | None:
+    """Returns what is within the braces of a key, or None for a literal; `{=}` has no meaning."""
     stripped = text.strip(BLANKS)
     if len(stripped) < 3 or stripped[0] != "{" or stripped[-1] != "}":
         return None
-    key = stripped[1:-1]
-    return port if key == "=" else key
+    return stripped[1:-1]
 
 
 def reachable_trees(trees: Mapping[str, Tree], main: str) -> list[str]:

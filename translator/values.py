@@ -10,7 +10,8 @@ from enum import Enum
 _INTEGER = re.compile(r"-?[0-9]+")
 _UNSIGNED = re.compile(r"[0-9]+")
 _REAL = re.compile(
-    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE | re.ASCII
+    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan(?:\(\w*\))?)",
+    re.IGNORECASE | re.ASCII,
 )
 _BOOLEANS = {"0", "1", "true", "TRUE", "True", "false", "FALSE", "False"}
 _STATUSES = {"SUCCESS", "FAILURE", "SKIPPED", "RUNNING"}
@@ -21,9 +22,13 @@ _UINT_RANGE = (0, 2**32 - 1)
 DESCRIPTIONS = {
     "int": "a whole number",
     "uint": "a whole number, 0 or more",
+    "int64": "a whole number of 64 bits",
     "double": "a number",
     "bool": "true or false",
     "status": "SUCCESS, FAILURE, SKIPPED or RUNNING",
+    "string": "a text",
+    "script": "a script",
+    "any": "a value",
 }
 
 
@@ -66,18 +71,18 @@ def type_label(type_: str) -> str:
 
 
 def describe(type_: str) -> str:
-    """Returns the description of a type's values in messages."""
+    """Returns the description of a type's values in messages; a class has only its name."""
     if (names := choices(type_)) is not None:
         return f"one of {', '.join(names)}"
     if type_.startswith("list["):
         return f"a list such as 1;2;3, each {describe(type_[5:-1])}"
-    return DESCRIPTIONS.get(type_, "a text")
+    return DESCRIPTIONS.get(type_, type_)
 
 
 def outside(type_: str, text: str) -> tuple[str, str, str] | None:
     """Returns a number that the type cannot hold, with the limits of the type; None if there is none."""
     if type_.startswith("list["):
-        found = (outside(type_[5:-1], part) for part in text.split(";"))
+        found = (outside(type_[5:-1], part) for part in split_list(text))
         return next(filter(None, found), None)
     if type_ == "double":
         match = _REAL.match(text)
@@ -95,6 +100,8 @@ def outside(type_: str, text: str) -> tuple[str, str, str] | None:
 
 def _outside_double(number: str) -> tuple[str, str, str] | None:
     digits = number.lower().partition("e")[0]
+    if "nan" in digits:
+        return None
     if not digits[-1:].isdigit() and not digits.endswith("."):
         return None  # inf and nan
     if math.isinf(float(number)):
@@ -120,12 +127,26 @@ def _fit_integer(type_: str, text: str) -> Fit:
     return Fit.GOOD if match.end() == len(text) else Fit.LOOSE
 
 
+def split_list(text: str) -> list[str]:
+    """Returns the parts of a list; a separator at its end adds none."""
+    return text.removesuffix(";").split(";") if text else []
+
+
+def constant_type(text: str) -> str:
+    """Returns the type of the entry that a SubTree makes of a constant; "" for a text."""
+    if _INTEGER.fullmatch(text):
+        number = int(text)
+        if -(2**63) <= number < 2**63:
+            return "int" if _INT_RANGE[0] <= number <= _INT_RANGE[1] else "int64"
+    return "double" if _REAL.fullmatch(text) and outside("double", text) is None else ""
+
+
 def _fit_list(item: str, text: str) -> Fit:
     if not text:
         return Fit.GOOD
     if text.startswith("json:"):
         return Fit.GOOD if _is_json_list(text[5:]) else Fit.BAD
-    fits = {fit(item, part) for part in text.split(";")}
+    fits = {fit(item, part) for part in split_list(text)}
     return next((worst for worst in (Fit.BAD, Fit.RANGE, Fit.LOOSE) if worst in fits), Fit.GOOD)
 
 

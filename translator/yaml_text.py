@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import yaml
 
 from translator.limits import YAML_BYTES, YAML_LEVELS, YAML_VALUES
+from translator.yaml_core import CoreLoader, core_value
 
 _TAGS: Final = frozenset(
     f"tag:yaml.org,2002:{name}" for name in ("str", "int", "float", "bool", "null", "seq", "map")
@@ -33,6 +34,12 @@ class YamlText:
     value: Any = None
     places: dict[Path, tuple[int, int]] = field(default_factory=dict)
 
+    def place(self, path: Path) -> tuple[int, int]:
+        """Returns line and column of a part, or of the nearest enclosing part that exists."""
+        while path not in self.places and path:
+            path = path[:-1]
+        return self.places.get(path, (1, 1))
+
 
 def read_yaml(raw: bytes) -> YamlText:
     """Reads one YAML document.
@@ -45,7 +52,7 @@ def read_yaml(raw: bytes) -> YamlText:
     try:
         text = raw.decode("utf-8-sig")
         _measure(text)
-        root = yaml.compose(text, Loader=yaml.CSafeLoader)
+        root = yaml.compose(text, Loader=CoreLoader)
     except UnicodeDecodeError as error:
         raise YamlError("the document is not UTF-8", raw.count(b"\n", 0, error.start) + 1) from None
     except yaml.MarkedYAMLError as error:
@@ -55,7 +62,7 @@ def read_yaml(raw: bytes) -> YamlText:
     if root is None:
         raise YamlError("the document is empty")
     found = YamlText()
-    found.value = _read(root, (), found.places, yaml.SafeLoader(""))
+    found.value = _read(root, (), found.places)
     return found
 
 
@@ -66,7 +73,7 @@ def _at(mark: Any, message: str) -> YamlError:
 def _measure(text: str) -> None:
     """Refuses YAML that is too deep, too long or has aliases, before any object is built."""
     depth = values = 0
-    for event in yaml.parse(text, Loader=yaml.CSafeLoader):
+    for event in yaml.parse(text, Loader=CoreLoader):
         mark = event.start_mark
         if isinstance(event, yaml.AliasEvent):
             raise _at(mark, "aliases (*name) have no place here: write the value again")
@@ -81,7 +88,7 @@ def _measure(text: str) -> None:
             raise _at(mark, f"the document has more than {YAML_VALUES} values")
 
 
-def _read(node: yaml.Node, path: Path, places: dict[Path, tuple[int, int]], loader: Any) -> Any:
+def _read(node: yaml.Node, path: Path, places: dict[Path, tuple[int, int]]) -> Any:
     mark = node.start_mark
     if node.tag not in _TAGS:
         raise _at(
@@ -89,7 +96,7 @@ def _read(node: yaml.Node, path: Path, places: dict[Path, tuple[int, int]], load
         )
     places[path] = (mark.line + 1, mark.column + 1)
     if isinstance(node, yaml.SequenceNode):
-        return [_read(child, (*path, index), places, loader) for index, child in enumerate(node.value)]
+        return [_read(child, (*path, index), places) for index, child in enumerate(node.value)]
     if isinstance(node, yaml.MappingNode):
         held: dict[str, Any] = {}
         for key, child in node.value:
@@ -97,10 +104,10 @@ def _read(node: yaml.Node, path: Path, places: dict[Path, tuple[int, int]], load
                 raise _at(key.start_mark, "a key must be a word")
             if key.value in held:
                 raise _at(key.start_mark, f"the key '{key.value}' appears twice")
-            held[key.value] = _read(child, (*path, key.value), places, loader)
+            held[key.value] = _read(child, (*path, key.value), places)
             places[*path, key.value] = (key.start_mark.line + 1, key.start_mark.column + 1)
         return held
     try:
-        return loader.construct_object(node)
-    except (yaml.YAMLError, ValueError) as error:
+        return core_value(cast("yaml.ScalarNode", node))
+    except ValueError as error:
         raise _at(mark, f"this value cannot be read: {str(error).splitlines()[0]}") from None

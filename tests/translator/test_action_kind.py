@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from translator import check, inspect_action
+from translator import check, from_xml, inspect_action
 from translator.action_kind import kind_by_bases, qualified_bases
 from translator.catalog import NodeModel, PortModel
 from translator.stub import stub_source
@@ -42,6 +42,35 @@ def test_the_kind_follows_from_the_base(imports, base, kind):
     limits = {"control": (1, None), "decorator": (1, 1), "action": (0, 0)}
     assert (found.min_children, found.max_children) == limits[kind]
     assert found.to_json()["children"] == {"min": found.min_children, "max": found.max_children}
+
+
+@pytest.mark.parametrize(
+    ("base", "body", "limits"),
+    [
+        ("composites.Sequence", "super().__init__(name, True); self.add_children([B('b')])", (0, None)),
+        ("composites.Sequence", "super().__init__(name, memory=True, children=[B('b')])", (0, None)),
+        ("composites.Sequence", "super().__init__(name, True)", (1, None)),
+        ("decorators.Inverter", "super().__init__(name, child=B('b'))", (0, 0)),
+    ],
+)
+def test_a_class_of_py_trees_may_hold_its_children_itself(base, body, limits):
+    source = (
+        f"import py_trees\n\n\nclass A(py_trees.{base}):\n    def __init__(self, name):\n        {body}\n"
+    )
+    found, codes = model(source)
+    assert ((found.min_children, found.max_children), codes) == (limits, [])
+    takes_child = source.replace("name):", "name, child):")
+    if "decorators" in base:
+        assert model(takes_child)[0].min_children == 1
+
+
+def test_a_tree_of_such_a_class_alone_has_no_finding():
+    made = "child=py_trees.behaviours.Success('b')"
+    init = f"    def __init__(self, name):\n        super().__init__(name, {made})\n"
+    source = f"import py_trees\n\n\nclass A(py_trees.decorators.Inverter):\n{init}"
+    xml = '<root BTCPP_format="4"><BehaviorTree ID="Main"><A/></BehaviorTree></root>'
+    found = check(from_xml(xml, actions={"A.py": source.encode()}))
+    assert [item.code for item in found if item.is_error] == []
 
 
 def test_bases_are_named_in_full():

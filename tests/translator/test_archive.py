@@ -87,7 +87,9 @@ def test_many_small_bombs_are_refused(monkeypatch):
     assert refused(zipped([(f"f{number}", b"") for number in range(10)])) == "BT0922"
 
 
-@pytest.mark.parametrize("raw", [b"", b"junk", zipped([("a", b"x" * 1000)])[:60]])
+@pytest.mark.parametrize(
+    "raw", [b"", b"junk", zipped([("a", b"x" * 1000)])[:60]], ids=["empty", "junk", "half"]
+)
 def test_what_is_no_zip_is_refused(raw):
     assert refused(raw) == "BT0920"
 

@@ -124,7 +124,7 @@ def test_a_package_carries_its_tests(tmp_path):
     package = to_ros2_package(project())
     name = package.name
     assert b"<test_depend>python3-pytest</test_depend>" in package.files[f"{name}/package.xml"]
-    assert b'extras_require={"test": ["pytest"]}' in package.files[f"{name}/setup.py"]
+    assert b"extras_require={'test': ['pytest']}" in package.files[f"{name}/setup.py"]
     document = json.loads(package.files[f"{name}/test/behaviour_tests.json"])
     assert (document["xml"], document["sources"]) == ("", None)
     for path, raw in package.files.items():

@@ -45,7 +45,9 @@ def subscribing(kind: str, topic: str) -> bytes:
 @pytest.mark.parametrize(
     ("kind", "topic", "project", "universe"),
     [
-        ("LaserScan", "/f1/laser/scan", "avoid", "walled_room"),
+        ("LaserScan", "/f1/laser/scan", "avoid", "circuit_obstacles"),
+        ("Image", "/cam_f1_left/image_raw", "Follow the line", "circuit"),
+        ("LaserScan", "/scan", "avoid", "walled_room"),
         ("Bool", "/bumper", "bump", "walled_room"),
         ("Image", "/depth_camera/image_raw", "follow", "person_in_green"),
         ("Image", "/camera/image_raw", "Follow the line", "line"),

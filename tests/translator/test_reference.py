@@ -12,9 +12,9 @@ from translator.diagnostic import Place, diagnostic, rules
 from translator.reference import FOLDER, GROUPS, pages
 
 OWN = Path(translator.__file__).parent
-# Only the web server reports this: a project could not be checked at all.
-CHECKING = OWN.parent / "backend" / "projects" / "documents" / "checking.py"
-SOURCES = {path: path.read_text() for path in (*OWN.rglob("*.py"), CHECKING)}
+# Some are reported by the web server alone, such as that a project could not be checked at all.
+SERVER = OWN.parent / "backend"
+SOURCES = {path: path.read_text() for path in (*OWN.rglob("*.py"), *SERVER.rglob("*.py"))}
 USED = set(re.findall(r'"(BT\d{4})"', "".join(SOURCES.values())))
 
 

@@ -21,3 +21,11 @@ def test_a_wrong_setting_is_reported_and_gets_its_default() -> None:
 def test_what_is_no_object_gives_the_defaults() -> None:
     assert [found.code for found in read_settings(b"[]")[1]] == ["BT0004"]
     assert [found.code for found in read_settings(b"[")[1]] == ["BT0001"]
+
+
+def test_what_is_nested_too_deeply_gives_the_defaults() -> None:
+    for levels in (600, 900, 100_000):
+        text = '{"name": "Robot", "maintainer": ' + '{"a":' * levels + "1" + "}" * (levels + 1)
+        settings, [found] = read_settings(text)
+        assert settings == Settings()
+        assert (found.code, found.values["problem"]) == ("BT0001", "it is nested too deeply")

@@ -31,7 +31,7 @@ def test_values_have_their_places():
         (b"? [a]\n: 1", 1, "a key must be a word"),
         (b"a: !!python/object/apply:os.system ['true']", 1, "have no place here"),
         (b"a: !mine x", 1, "have no place here"),
-        (b"a: 2026-01-01", 1, "timestamp have no place here: put it in quotes"),
+        (b"a: !!timestamp 2026-01-01", 1, "timestamp have no place here: put it in quotes"),
         (b"a: &x 1\nb: *x", 2, "aliases"),
         (BOMB.encode(), 2, "aliases"),
         (b"a: " + b"[" * 100 + b"]" * 100, 1, "nested deeper than 32"),

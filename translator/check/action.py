@@ -10,9 +10,10 @@ from translator.action import source_text
 from translator.action_returns import returns_of
 from translator.action_waits import waiting_calls
 from translator.diagnostic import Place, diagnostic
+from translator.message_fields import wrong_fields
 from translator.python_source import parse
 from translator.settings import NO_UNIVERSE
-from translator.shared_modules import lost_imports, shared_modules
+from translator.shared_modules import shared_modules
 from translator.text import is_clean
 
 if TYPE_CHECKING:
@@ -40,8 +41,34 @@ def check_actions(context: Context) -> None:
             place = Place(action.path, line=returns.line)
             context.found.append(diagnostic("BT0617", place, name=name, problem=returns.problem))
     own = [name for name in context.project.actions if name in used]
-    _check_imports(context, own)
+    _check_modules(context, own)
     _check_waits(context, own)
+    _check_messages(context, own)
+
+
+def _check_messages(context: Context, used: list[str]) -> None:
+    """Reports values that a field of a ROS message surely refuses."""
+    actions = [context.project.actions[name] for name in used]
+    sources = {
+        action.path: (action.source, {port.name: port.type for port in action.ports}) for action in actions
+    }
+    for module in shared_modules(context.project, used):
+        sources.setdefault(module.path, (module.source, {}))
+    for path, (source, ports) in sources.items():
+        for wrong in wrong_fields(source, path, ports):
+            place = Place(path, line=wrong.line)
+            context.found.append(
+                diagnostic(
+                    "BT0631",
+                    place,
+                    field=wrong.field,
+                    wanted=wrong.wanted,
+                    given=wrong.given,
+                    remedy=wrong.remedy,
+                )
+                if wrong.wanted
+                else diagnostic("BT0632", place, field=wrong.field, fields=wrong.given)
+            )
 
 
 def _check_waits(context: Context, used: list[str]) -> None:
@@ -56,11 +83,8 @@ def _check_waits(context: Context, used: list[str]) -> None:
             context.found.append(diagnostic("BT0622", place, call=call.name, method=call.method, name=name))
 
 
-def _check_imports(context: Context, used: list[str]) -> None:
-    """Reports imports from `actions/` that find no file, and modules that cannot be stored in XML."""
-    for path, wanted in lost_imports(context.project, used):
-        place = Place(path, line=wanted.line)
-        context.found.append(diagnostic("BT0621", place, name=wanted.name))
+def _check_modules(context: Context, used: list[str]) -> None:
+    """Reports modules that cannot be stored in XML."""
     for module in shared_modules(context.project, used):
         if not is_clean(source_text(module.source)) and module.name not in context.project.actions:
             context.found.append(diagnostic("BT0614", Place(module.path, line=1)))

@@ -81,6 +81,30 @@ class Context:
         **values: object,
     ) -> None:
         """Adds a finding at a node of a tree. `steps` lead over the nodes from which it follows."""
+        self._add(code, (tree, node, port), steps, None, values)
+
+    def report_as(
+        self,
+        severity: Severity | None,
+        code: str,
+        tree: Tree,
+        node: Node | None = None,
+        port: str = "",
+        /,
+        **values: object,
+    ) -> None:
+        """Adds a finding whose severity is another one than that of its code, unless it is None."""
+        self._add(code, (tree, node, port), (), severity, values)
+
+    def _add(
+        self,
+        code: str,
+        where: tuple[Tree, Node | None, str],
+        steps: tuple[Step, ...],
+        severity: Severity | None,
+        values: dict[str, object],
+    ) -> None:
+        tree, node, port = where
         place = Place(
             file=tree.file or diagram_path(tree.id),
             tree=tree.id,
@@ -92,6 +116,8 @@ class Context:
         found = diagnostic(code, place, **values)
         if steps:
             found = replace(found, path=steps)
+        if severity is not None:
+            found = replace(found, severity=severity)
         if found.is_error and code.startswith(_INSTANTIATED) and tree.id not in self.reachable:
             # The engine never builds a tree that nothing calls, so the rest can run.
             found = replace(found, severity=Severity.WARNING)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from translator.action_ports import is_port_name
+from translator.action_ports import is_read_as_port
 from translator.catalog import NodeModel, PortModel, builtins, did_you_mean, nearest
+from translator.diagnostic import Severity
 from translator.ros_interfaces import full_name, has_package, interface_fields, interface_names
 from translator.ros_nodes import ROS_NODES, with_fields
 from translator.tree import BLANKS, Node, Tree, pointer
-from translator.values import Fit, describe, fit, outside, type_label
+from translator.values import Fit, describe, fit, outside
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -34,7 +34,6 @@ EXAMPLES = {
 def check_ports(context: Context) -> None:
     """Reports port values that the engine would refuse, or whose meaning differs from their appearance."""
     for tree in context.project.trees.values():
-        entries: dict[str, _Use] = {}
         for node in tree.walk():
             model = context.model(node.type)
             if model is None or node.is_subtree:
@@ -45,20 +44,18 @@ def check_ports(context: Context) -> None:
             _check_names(context, tree, node, typed)
             for port in typed.ports.values():
                 _check_port(context, tree, node, port)
-            for port in model.ports.values():  # fields convert values: they fix no type of an entry
-                _check_entry(context, tree, node, port, entries)
 
 
 def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> None:
     for name, text in node.ports.items():
         if name in model.ports:
             continue
-        if not model.open:
+        if not is_read_as_port(name):
+            context.report_as(Severity.WARNING, "BT0209", tree, node, name, port=name)
+        elif not model.open:
             known = ", ".join(model.ports) or "none"
             suggestion = did_you_mean(name, model.ports, otherwise=f"Its ports: {known}.")
             context.report("BT0202", tree, node, name, type=node.type, port=name, suggestion=suggestion)
-        elif not is_port_name(name):
-            context.report("BT0209", tree, node, name, port=name)
         else:
             check_braces(context, tree, node, name, text)
 
@@ -95,18 +92,40 @@ def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> No
     text = node.ports.get(port.name)
     if text is None or (not text and _names_entry(node, port)):
         if port.required and port.default is None:
-            context.report(
-                "BT0201", tree, node, port.name, type=node.type, port=port.name, description=port.description
+            advice = (
+                f"Type {describe(port.type)}, or use a blackboard key: {{key}}."
+                if port.direction != "output"
+                else "Give it a blackboard key: {key}."
             )
+            context.report("BT0201", tree, node, port.name, port=port.name, advice=advice)
         return
-    if port.type == "script" or not check_braces(context, tree, node, port.name, text):
+    is_literal = not port.is_written or _takes_literal(port)
+    is_text = is_literal and fit(port.type, text) is Fit.GOOD
+    if port.type == "script" or not check_braces(context, tree, node, port.name, text, is_text=is_text):
         return
     if pointer(text, port.name) is not None:
+        if text != text.strip(BLANKS) and not is_queue(port) and is_blank_refused(port.type, text):
+            wanted = f"{text.strip(BLANKS)} without blanks, or {describe(port.type)}"
+            context.report("BT0204", tree, node, port.name, port=port.name, value=text, wanted=wanted)
         return
-    if port.is_written and not _takes_literal(port):
+    if is_queue(port) and text.startswith("json:"):
+        context.report("BT0215", tree, node, port.name)
+    if text == "=" and is_text:
+        context.report("BT0213", tree, node, port.name, port=port.name)
+    if not is_literal:
         context.report("BT0205", tree, node, port.name, port=port.name, value=text)
         return
     check_literal(context, tree, node, port, text)
+
+
+def is_queue(port: PortModel) -> bool:
+    """Returns whether a port is the queue of a loop, which takes entries of any type."""
+    return port.direction == "inout" and port.name == "queue" and port.type.startswith("list[")
+
+
+def is_blank_refused(type_: str, text: str) -> bool:
+    """Returns whether a port refuses blanks round a key, since it reads the whole as a literal."""
+    return type_ != "status" and fit(type_, text) is Fit.BAD
 
 
 def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, text: str) -> None:
@@ -145,47 +164,27 @@ def _takes_literal(port: PortModel) -> bool:
     return port.direction == "inout" and port.name in {"queue", "output_key"}
 
 
-def check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
-    """Reports braces that do not make a key; returns whether they are correct."""
+def check_braces(  # noqa: PLR0913 - the place, and what is there
+    context: Context, tree: Tree, node: Node, port: str, text: str, *, is_text: bool = True
+) -> bool:
+    """Reports braces that do not make a key; returns whether they are correct.
+
+    They are a text where the port takes any text.
+    """
     stripped = text.strip(BLANKS)
+    severity = Severity.WARNING if is_text else None
     if stripped == "{}":
-        context.report("BT0207", tree, node, port, port=port)
-        return False
-    if stripped.count("{") != stripped.count("}") and (stripped[0] == "{" or stripped[-1] == "}"):
-        context.report("BT0203", tree, node, port, port=port, value=text)
+        context.report_as(severity, "BT0207", tree, node, port, port=port)
         return False
     key = pointer(text, port)
-    if key is not None and ("{" in key or "}" in key or key.count("@") > 1 or "@" in key[1:]):
-        context.report("BT0208", tree, node, port, port=port, key=key)
+    looks_like_key = stripped[:1] == "{" or stripped[-1:] == "}"
+    if key is None and looks_like_key and stripped.count("{") != stripped.count("}"):
+        context.report_as(severity, "BT0203", tree, node, port, port=port, value=text)
+        return False
+    if key is not None and ("{" in key or "}" in key or "@" in key[1:]):
+        is_refused = key.startswith("@") and "@" in key[1:]
+        context.report_as(
+            None if is_refused else Severity.WARNING, "BT0208", tree, node, port, port=port, key=key
+        )
         return False
     return True
-
-
-@dataclass(frozen=True, slots=True)
-class _Use:
-    """The first typed use of a blackboard entry."""
-
-    type: str
-    node: Node
-    port: str
-
-
-def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entries: dict[str, _Use]) -> None:
-    """Reports an entry that two ports use with different types; the engine refuses it."""
-    text = node.ports.get(port.name, port.default)
-    key = pointer(text, port.name) if text is not None else None
-    # SetBlackboard copies a value of any type, although its port is a text in the catalogue.
-    if key is None or port.type in {"any", "script", "status"} or node.type == "SetBlackboard":
-        return
-    first = entries.setdefault(key, _Use(port.type, node, port.name))
-    if first.type not in {port.type, "string"}:
-        context.report(
-            "BT0210",
-            tree,
-            node,
-            port.name,
-            key=key,
-            type=type_label(port.type),
-            other_type=type_label(first.type),
-            other=f"{first.node.label} ({first.node.id}), port {first.port}",
-        )

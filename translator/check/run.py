@@ -11,12 +11,15 @@ from translator.check.context import Context, located
 from translator.check.dataflow import check_dataflow
 from translator.check.effect import check_effects
 from translator.check.endless import check_endless_loops
+from translator.check.entry_types import check_entry_types
 from translator.check.late_script import check_late_scripts
+from translator.check.nobody import check_nobody
 from translator.check.order import check_order
 from translator.check.port import check_ports
 from translator.check.reach import check_reachability
 from translator.check.script import check_scripts
 from translator.check.silence import without_silenced
+from translator.check.sources import check_sources
 from translator.check.structure import check_structure
 from translator.check.subtree import check_subtrees
 from translator.check.together import check_together
@@ -52,7 +55,10 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     check_structure(context)
     check_conflicts(context)
     check_actions(context)
+    check_sources(context)
+    check_nobody(context)
     check_ports(context)
+    check_entry_types(context)
     check_scripts(context)
     check_late_scripts(context)
     check_subtrees(context)

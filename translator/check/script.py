@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from translator.script_names import MAX_INTEGER, integers_too_large, script_names
+from translator.text import excerpt
 from translator.tree import pointer
 
 if TYPE_CHECKING:
@@ -67,6 +68,6 @@ def _check_script(  # noqa: PLR0913 - the place has three parts
         node,
         attribute,
         attribute=attribute,
-        problem=f"{message}, at character {problem.offset + 1} of “{code}”",
+        problem=f"{message}, at character {problem.offset + 1} of “{excerpt(code, problem.offset)}”",
         advice=advice or problem.hint or "See the page on the script language.",
     )

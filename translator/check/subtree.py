@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from translator.action_ports import is_port_name
+from translator.action_ports import is_read_as_port
 from translator.catalog import did_you_mean
 from translator.check.port import check_braces, check_literal
-from translator.tree import AUTOREMAP, pointer
+from translator.diagnostic import Severity
+from translator.tree import AUTOREMAP, bare_pointer, pointer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -55,14 +56,18 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
         context.report("BT0505", tree, node, value=autoremap)
     declared = {port.name: port for port in trees[node.tree].ports}
     for name, text in node.ports.items():
-        if not is_port_name(name):
-            context.report("BT0209", tree, node, name, port=name)
+        if not is_read_as_port(name):
+            context.report_as(Severity.WARNING, "BT0209", tree, node, name, port=name)
         if check_braces(context, tree, node, name, text) and name in declared:
             _check_value(context, tree, node, declared[name], text)
     if node.autoremap:
         return
     for port in trees[node.tree].ports:
-        if port.name not in node.ports and port.default is None:
+        if port.name in node.ports:
+            continue
+        if port.default is not None and bare_pointer(port.default) == "=":
+            context.report("BT0508", tree, node, port.name, target=node.tree, port=port.name)
+        if not port.default:
             context.report("BT0504", tree, node, port.name, target=node.tree, port=port.name)
 
 

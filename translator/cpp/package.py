@@ -12,7 +12,7 @@ import jinja2
 from translator.cpp.names import comment_lines, identifier, literal, one_line
 from translator.cpp.nodes import ANY, CppNode, cpp_enums, cpp_nodes, ros_blocks
 from translator.export import require_sound, to_xml
-from translator.package.naming import package_name, require_name
+from translator.package.naming import package_name, require_maintainer, require_name
 from translator.package.ros2 import render as render_ros2
 from translator.package.zip import write_zip
 from translator.text import clean
@@ -51,7 +51,8 @@ def to_cpp_package(project: Project, *, name: str | None = None) -> CppPackage:
     Raises:
         TranslatorError: If the project has errors, or the name is not valid for a ROS package.
     """
-    require_sound(project)
+    require_sound(project, elsewhere=True)
+    require_maintainer(project.settings)
     chosen = require_name(name) if name is not None else package_name(project.settings.name) + SUFFIX
     space = identifier(chosen)
     taken = {space}

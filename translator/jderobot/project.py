@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from translator.catalog import builtins
+from translator.check import check
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.importer import project_files, with_proposal
 from translator.jderobot.graph import GraphOptions, read_graph
@@ -26,6 +27,8 @@ MAIN_TREE = "MainTree"
 _MAIN_FILES = ("code/trees/main.json", "trees/main.json", "graph.json", "code/graph.json")
 _SUBTREE_FOLDERS = ("trees/subtrees/json/", "trees/subtrees/", "subtrees/json/", "subtrees/")
 _ACTION_FOLDERS = ("code/actions/", "actions/")
+ORDERS = ("bottom-to-top", "top-to-bottom")
+_NEVER_REACHED = frozenset({"BT0114", "BT0118"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +45,13 @@ def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
     return _find_layout(files) is not None
 
 
-def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
+def import_jderobot(files: Mapping[str, bytes], *, name: str = "", order: str = "") -> Project:
     """Converts a project of JdeRobot to a project of BT Studio; the actions do not change.
 
     Args:
         files: The files of the project, by path; they may all be in one folder.
         name: The name of the project, if its settings have none.
+        order: The order of children, one of `ORDERS`; "" for that of the project's settings.
 
     Raises:
         TranslatorError: If there is no main graph, or it cannot be read.
@@ -57,7 +61,33 @@ def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
         raise TranslatorError([diagnostic("BT0800", Place("graph.json"), files=", ".join(_MAIN_FILES))])
     found: list[Diagnostic] = []
     config = _read_config(files, layout.folder, found)
-    trees = _read_trees(files, layout, config, found)
+    used = order or _order_in(config, layout.folder, found)
+    project = _imported(files, layout, config, used, name, found)
+    if order or not (left_out := _never_reached(project)):
+        return project
+    other = ORDERS[used == ORDERS[0]]
+    if _never_reached(_imported(files, layout, config, other, name, [])):
+        return project
+    better = diagnostic("BT0811", left_out.place, order=used, other=other, **left_out.values)
+    return replace(project, diagnostics=(better, *project.diagnostics))
+
+
+def _never_reached(project: Project) -> Diagnostic | None:
+    """Returns the finding that a branch is never reached; that of the main tree if there are several."""
+    found = [item for item in check(project) if item.code in _NEVER_REACHED]
+    found.sort(key=lambda item: item.place.tree != project.settings.main_tree)
+    return next(iter(found), None)
+
+
+def _imported(  # noqa: PLR0913, PLR0917 - the parts of a project that was read
+    files: Mapping[str, bytes],
+    layout: _Layout,
+    config: dict[str, Any],
+    order: str,
+    name: str,
+    found: list[Diagnostic],
+) -> Project:
+    trees = _read_trees(files, layout, order, found)
     given = config.get("name")
     title = clean(given) if isinstance(given, str) and given.strip() else layout.folder.strip("/") or name
     settings = Settings(
@@ -107,18 +137,19 @@ def _read_config(files: Mapping[str, bytes], folder: str, found: list[Diagnostic
     return config if isinstance(config, dict) else {}
 
 
-def _is_bottom_to_top(config: dict[str, Any], folder: str, found: list[Diagnostic]) -> bool:
+def _order_in(config: dict[str, Any], folder: str, found: list[Diagnostic]) -> str:
     inner = config.get("config")
     order = inner.get("btOrder") if isinstance(inner, dict) else config.get("btOrder")
-    if order not in {None, "bottom-to-top", "top-to-bottom"}:
+    if order in ORDERS:
+        return str(order)
+    if order is not None:
         found.append(diagnostic("BT0808", Place(f"{folder}config.json"), order=str(order)[:40]))
-    return order != "top-to-bottom"
+    return ORDERS[0]
 
 
 def _read_trees(
-    files: Mapping[str, bytes], layout: _Layout, config: dict[str, Any], found: list[Diagnostic]
+    files: Mapping[str, bytes], layout: _Layout, order: str, found: list[Diagnostic]
 ) -> dict[str, Tree]:
-    bottom_to_top = _is_bottom_to_top(config, layout.folder, found)
     ids = _tree_ids(layout, found)
     main_id = MAIN_TREE
     while main_id in ids.values():
@@ -126,7 +157,7 @@ def _read_trees(
     trees: dict[str, Tree] = {}
     graphs = [(main_id, layout.main), *((ids[name], path) for name, path in layout.subtrees.items())]
     for tree_id, path in graphs:
-        tree, problems = read_graph(files[path], GraphOptions(tree_id, path, bottom_to_top, ids))
+        tree, problems = read_graph(files[path], GraphOptions(tree_id, path, order == ORDERS[0], ids))
         found.extend(problems)
         if tree is not None:
             trees[tree_id] = tree

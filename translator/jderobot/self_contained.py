@@ -20,6 +20,7 @@ from translator.project import Project, load
 from translator.settings import Settings
 from translator.shared_modules import shared_modules
 from translator.text import is_xml_name
+from translator.xml.capital import ROOT, capital_root
 from translator.xml.escape import attribute, character_data
 from translator.xml.read import read_document
 from translator.xml.source import parse_source
@@ -29,13 +30,18 @@ if TYPE_CHECKING:
 
     from translator.tree import Node, Tree
 
-ROOT = "Root"
-
 
 def is_old_form(raw: bytes | str) -> bool:
-    """Returns whether a document has the root element of the 2024 format."""
-    text = raw if isinstance(raw, bytes) else raw.encode("utf-8", "replace")
-    return b"<Root" in text[:4096]
+    """Returns whether a document has the form of 2024: `<Root>` with a tree without an ID, or with code."""
+    attributes = capital_root(raw)
+    if attributes is None or any(name in attributes for name in ("BTCPP_format", "main_tree_to_execute")):
+        return False
+    try:
+        children = parse_source(raw, file="").root.children
+    except TranslatorError:
+        return True  # its reader says what is wrong
+    is_named = any(child.tag == "BehaviorTree" and child.attributes.get("ID") for child in children)
+    return not is_named or any(child.tag == "Code" for child in children)
 
 
 def read_old_form(raw: bytes | str, *, file: str = "self_contained_tree.xml") -> Project:

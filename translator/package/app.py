@@ -26,8 +26,17 @@ def to_app_zip(project: Project) -> bytes:
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.
     """
+    return write_zip(sound_app_files(project))
+
+
+def sound_app_files(project: Project) -> dict[str, bytes]:
+    """Returns the files of the app by path.
+
+    Raises:
+        TranslatorError: If the project has errors.
+    """
     require_sound(project)
-    return write_zip(app_files(project))
+    return app_files(project)
 
 
 def app_files(project: Project) -> dict[str, bytes]:

@@ -21,8 +21,12 @@ from translator.package.rosdep import rosdep_table
 
 FOLDER = "launch/"
 DEPENDENCIES = {".py": (), ".yaml": ("launch_yaml",), ".yml": ("launch_yaml",), ".xml": ("launch_xml",)}
-_LAUNCH_FILE = re.compile(r"launch/.+\.launch\.(py|ya?ml|xml)", re.DOTALL)
-_SHEBANG = b"#!/usr/bin/env python3\n"
+# As `ros2 launch` completes names: a dot or an underscore before the word.
+_LAUNCH_FILE = re.compile(r"launch/(?:.*[/._])?launch\.(py|ya?ml|xml)", re.DOTALL)
+_NAMED_FILE = re.compile(rb"""(?:\$\(dirname\)/|\b)((?:\.\./)*[\w./-]*launch\.(?:py|ya?ml|xml))\b""")
+_SHEBANG = b"#!/usr/bin/env -S python3 -mtree_gardener.ros_script\n"
+# The kernel gives what follows the interpreter as one word: `setuptools` writes the path of Python there.
+_PYTHON_SHEBANG = re.compile(rb"#!\s*\S*(?:/env\s+|/)python[\d.]*\s*\n")
 _PLAIN = re.compile(r"[A-Za-z_][\w.]*")
 _XML_NODE = re.compile(r"<node\b[^>]*>")
 _XML_EXEC = re.compile(r"""\bexec\s*=\s*(?P<quote>["'])(?P<path>[^"']+)(?P=quote)""")
@@ -38,6 +42,24 @@ _PACKAGES = re.compile(
 def launch_files(files: Mapping[str, bytes]) -> list[str]:
     """Returns the paths of the project's launch files."""
     return sorted(path for path in files if _LAUNCH_FILE.fullmatch(path))
+
+
+def started_files(files: Mapping[str, bytes]) -> list[str]:
+    """Returns the launch files that are started: those that no other one names, as an include does.
+
+    Files that name each other in a ring are all started.
+    """
+    found = launch_files(files)
+    names = {path: _named_in(path, files[path], found) for path in found}
+    named = {other for path, others in names.items() for other in others if path not in names[other]}
+    return [path for path in found if path not in named]
+
+
+def _named_in(path: str, raw: bytes, known: list[str]) -> set[str]:
+    folder = PurePosixPath(path).parent
+    texts = {match[1].decode() for match in _NAMED_FILE.finditer(raw)}
+    places = {normpath(place) for text in texts for place in (text, f"{folder}/{text}", f"{FOLDER}{text}")}
+    return {other for other in known if other in places and other != path}
 
 
 def dependencies_of(files: Mapping[str, bytes]) -> set[str]:
@@ -75,7 +97,13 @@ def companions(files: Mapping[str, bytes]) -> list[str]:
 
 
 def as_program(raw: bytes) -> bytes:
-    """Returns the Python file with the first line (`#!`) of an executable script."""
+    """Returns the Python file with the first line (`#!`) of an executable script that checks its messages.
+
+    A first line of the user that has more than Python's name stays.
+    """
+    first = _PYTHON_SHEBANG.match(raw)
+    if first is not None:
+        return _SHEBANG + raw[first.end() :]
     return raw if raw.startswith(b"#!") else _SHEBANG + raw
 
 
@@ -103,7 +131,7 @@ def _in_yaml(text: str, folder: str, package: str, known: Mapping[str, str]) -> 
     """Yields changes (start, end, new text): `pkg` before each `exec` of a program, and its new name."""
     try:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, RecursionError):
         return []  # `launch` reports it with a better place
     ending = "\r\n" if "\r\n" in text else "\n"
     changes = []

@@ -7,12 +7,14 @@ import re
 import sys
 import unicodedata
 
-from translator.diagnostic import Place, TranslatorError, diagnostic
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.package.rosdep import rosdep_table
-from translator.settings import PROJECT_FILE
+from translator.settings import PROJECT_FILE, Settings
 
 SUFFIX = "_bt"
 MAX_LENGTH = 80
+# The rule of catkin_pkg; colcon builds a package that it refuses as one of another type.
+_ADDRESS = re.compile(r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}", re.ASCII)
 _VALID = re.compile(r"[a-z][a-z0-9_]*[a-z0-9]")
 # Folders of a colcon workspace and of a package, and the name of the engine's package.
 _RESERVED = {
@@ -53,6 +55,24 @@ def problem_with(name: str) -> str | None:
     if name in rosdep_table().ros_packages or name in rosdep_table().imports:
         return "another package has it"
     return None
+
+
+def maintainer_problems(settings: Settings) -> list[Diagnostic]:
+    """Returns an error if ROS's tools would refuse the maintainer's address."""
+    email = settings.maintainer.email
+    if not email or _ADDRESS.fullmatch(email):
+        return []
+    return [diagnostic("BT0901", Place(PROJECT_FILE, line=1), email=email)]
+
+
+def require_maintainer(settings: Settings) -> None:
+    """Checks the maintainer's address.
+
+    Raises:
+        TranslatorError: If ROS's tools would refuse it.
+    """
+    if problems := maintainer_problems(settings):
+        raise TranslatorError(problems)
 
 
 def require_name(name: str) -> str:

@@ -34,8 +34,10 @@ from translator.package.launch_files import (
     in_package,
     launch_files,
     programs,
+    started_files,
 )
-from translator.package.naming import package_name, require_name
+from translator.package.literal import python_literal
+from translator.package.naming import package_name, require_maintainer, require_name
 from translator.package.rosdep import dependencies
 from translator.package.zip import write_zip
 from translator.ros_nodes import ros_endpoints, ros_packages
@@ -75,7 +77,8 @@ def to_ros2_package(project: Project, *, name: str | None = None) -> Ros2Package
     Raises:
         TranslatorError: If the project has errors, or the name is not valid for a ROS package.
     """
-    require_sound(project)
+    require_sound(project, elsewhere=True)
+    require_maintainer(project.settings)
     chosen = require_name(name) if name is not None else package_name(project.settings.name)
     builder = _Builder(project, chosen)
     return Ros2Package(chosen, builder.files(), tuple(builder.found))
@@ -169,6 +172,7 @@ class _Builder:
         keys, found = dependencies(models, own)
         self.found.extend(found)
         own_launch = [self.own_launch_name(path) for path in self.launch_files]
+        started = [self.own_launch_name(path) for path in started_files(self.project.files)]
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
         always |= dependencies_of(project_files) | ros_packages(self.project.trees.values())
         opened = self.endpoints()
@@ -183,7 +187,7 @@ class _Builder:
             "dependencies": sorted(always | set(keys)),
             "packages": [folder.replace("/", ".") for folder in self.packages()],
             "data_files": list(self.data_files(own_launch)),
-            "own_launch": own_launch,
+            "own_launch": started,
             "absolute_names": absolute_names(opened),
             "interfaces": interface_rows(opened),
             "example_name": example_name(opened),
@@ -237,7 +241,7 @@ def engine_package() -> Mapping[str, bytes]:
     values = {
         "version": engine_version(),
         "packages": [".".join(folder.parts) for folder in sorted(folders)],
-        "data": sorted({PurePosixPath(path).suffix for path in engine_files()} - {".py"}),
+        "data": sorted({f"*{PurePosixPath(path).suffix}" for path in engine_files()} - {"*.py"}),
         "dependencies": sorted(ENGINE_DEPENDENCIES),
     }
     for template in ("package.xml", "setup.py", "setup.cfg", "README.md"):
@@ -265,7 +269,7 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["python"] = repr
+    environment.filters["python"] = python_literal
     environment.filters["xml"] = lambda text: escape(str(text), {'"': "&quot;"})
     environment.filters["yaml"] = _yaml_text
     return environment

@@ -14,7 +14,7 @@ from translator.tree import Node, Tree
 from translator.xml.attributes import ID, to_attributes
 from translator.xml.escape import attribute, single_quoted
 from translator.xml.read import EXPLICIT, Document, TreeSource
-from translator.xml.write import node_lines, tree_lines
+from translator.xml.write import node_lines, tag_of, tree_lines
 
 if TYPE_CHECKING:
     from translator.project import Project
@@ -124,7 +124,9 @@ class _Patch:
             position = element.open_end
             ids = []
             for child in element.children:
-                node_id = names[id(child)]
+                node_id = names.get(id(child))
+                if node_id is None:  # a <remap>, which is an attribute now
+                    continue
                 ids.append(node_id)
                 self.gaps[node_id] = self.data[position : child.start]
                 position = child.end
@@ -173,7 +175,8 @@ class _Patch:
         if tag in EXPLICIT:
             wanted = {"ID": node.type, **wanted}
         elif node.type != before.type or node.id in self.source.upgraded:
-            tag = node.type
+            tag, id_ = tag_of(node, self.project)
+            wanted = {**id_, **wanted}
         return _rewritten(opening, tag, element, wanted)
 
     def _new_node(self, node: Node, depth: int) -> bytes:
@@ -201,6 +204,8 @@ class _Patch:
         if not children and not before:
             if is_single:
                 return opening.encode()
+            if element.children:
+                return f"{opening[:-1].rstrip()}/>".encode()
             inner = self.data[element.open_end : element.end]
             return opening.encode() + self._tail(inner, element, closing)
         if is_single:

@@ -11,15 +11,18 @@ from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.text import clean, is_clean, is_xml_name
 from translator.tree import SUBTREE, Node, Span, Tree
 from translator.xml.attributes import from_attributes
+from translator.xml.capital import with_small_root
+from translator.xml.py_trees import converted, defaults_of, included_path, is_of_py_trees
 from translator.xml.source import Element, Source, parse_source
-from translator.xml.v3 import upgrade
+from translator.xml.v3 import is_of_v4, remapped, remaps_of, upgrade
 from translator.xml.write import CPP_TYPES, LAYOUT, PORT_TAGS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
 EXPLICIT = {"Control": "control", "Decorator": "decorator", "Action": "action", "Condition": "condition"}
-OTHER_TAGS = {"TreeNodesModel", "include", "Code", "Enums"}
+MODEL_TAGS = ("TreeNodesModel", "TreeNodeModel")
+OTHER_TAGS = {*MODEL_TAGS, "include", "Code", "Enums"}
 _TYPE_NAMES = {cpp: name for name, cpp in reversed(CPP_TYPES.items())} | {
     "BT::AnyTypeAllowed": "any",
     "std::string": "string",
@@ -34,8 +37,9 @@ _LONG_STRING = re.compile(
 )
 _ALLOCATOR = re.compile(r", std::(?:__\w+::)?allocator<[^<>]*> ?(?=>)")
 _CPP_NAME = re.compile(r"(?:[A-Za-z_]\w*::)*([A-Za-z_]\w*)")
+_VERSION = re.compile(r"\s*([0-9]{1,4})(?:\.[0-9.]*)?\s*")
 _WHOLE = re.compile(r"-?[0-9]{1,20}")
-_DIRECTIONS = {tag: direction for direction, tag in PORT_TAGS.items()}
+_DIRECTIONS = {tag: direction for direction, tag in PORT_TAGS.items()} | {"Parameter": "input"}
 
 
 @dataclass(slots=True)
@@ -46,6 +50,7 @@ class TreeSource:
     element: Element
     elements: dict[str, Element]
     upgraded: set[str] = field(default_factory=set)
+    is_renamed: bool = False
 
 
 @dataclass(slots=True)
@@ -55,6 +60,7 @@ class Document:
     source: Source
     is_v4: bool
     main: str
+    is_of_py_trees: bool = False
     trees: list[TreeSource] = field(default_factory=list)
     models: dict[str, NodeModel] = field(default_factory=dict)
     includes: list[Element] = field(default_factory=list)
@@ -75,14 +81,13 @@ def read_document(raw: bytes | str, *, file: str) -> Document:
     Raises:
         TranslatorError: If the text is not accepted as XML, or is not a behaviour tree.
     """
-    source = parse_source(raw, file=file)
+    source, notes = with_small_root(parse_source(raw, file=file))
     root = source.root
     if root.tag != "root":
         place = Place(file, line=root.line, column=root.column)
         raise TranslatorError([diagnostic("BT0703", place, tag=root.tag)])
-    document = Document(
-        source, root.attributes.get("BTCPP_format") == "4", root.attributes.get("main_tree_to_execute", "")
-    )
+    document = Document(source, is_v4=False, main=root.attributes.get("main_tree_to_execute", ""))
+    document.diagnostics += notes
     _Reader(document).read()
     return document
 
@@ -100,16 +105,24 @@ class _Reader:
 
     def read(self) -> None:
         root = self.document.source.root
+        self.document.is_of_py_trees = is_of_py_trees(root)
+        if self.document.is_of_py_trees:
+            self.report("BT0728", root)
+        else:
+            self.document.is_v4 = self.version(root)
+        last = {self.id_of(element): element for element in self.trees()}
         taken: set[str] = set()
-        models = [element for element in root.children if element.tag == "TreeNodesModel"]
+        models = [element for element in root.children if element.tag in MODEL_TAGS]
         for element in models:
+            if element.tag != MODEL_TAGS[0]:
+                self.report("BT0725", element, tag=element.tag)
             self.read_models(element)
         for extra in models[1:]:
             self.report("BT0710", extra)
         for element in root.children:
             if element.tag == "BehaviorTree":
-                self.read_tree(element, taken)
-            elif element.tag == "include":
+                self.read_tree(element, last, taken)
+            elif element.tag == "include" or included_path(element):
                 self.document.includes.append(element)
             elif element.tag == "Code":
                 self.read_code(element)
@@ -117,6 +130,18 @@ class _Reader:
                 self.read_enums(element)
             elif element.tag not in OTHER_TAGS:
                 self.report("BT0711", element, tag=element.tag)
+
+    def version(self, root: Element) -> bool:
+        """Returns whether a document is of version 4; one that names no version, by what it uses."""
+        said = root.attributes.get("BTCPP_format")
+        if said is not None:
+            if (number := _VERSION.fullmatch(said)) is not None:
+                return int(number.group(1)) >= 4
+            self.report("BT0724", root, format=said)
+        found = is_of_v4(root)
+        if found is not None:
+            self.report("BT0723", root, what=found)
+        return found is not None
 
     def read_code(self, element: Element) -> None:
         for child in element.children:
@@ -129,20 +154,29 @@ class _Reader:
             numbers = {value.get("name", ""): _whole(value.get("value", "")) for value in values}
             self.document.enums[child.attributes.get("name", "")] = numbers
 
-    def read_tree(self, element: Element, taken: set[str]) -> None:
-        tree_id = element.attributes.get("ID", "")
-        if not tree_id:
-            tree_id = self.document.main or "MainTree"
-            siblings = [other for other in self.document.source.root.children if other.tag == "BehaviorTree"]
-            if len(siblings) > 1:
-                self.report("BT0712", element, tree_id, id=tree_id)
-        if tree_id in taken:
-            self.report("BT0713", element, tree_id, id=tree_id)
-            tree_id = _free(tree_id, taken)
-        taken.add(tree_id)
-        if len(element.children) != 1:
-            self.report("BT0714", element, tree_id, id=tree_id, count=len(element.children))
-        self.document.trees.append(self.tree_source(element, tree_id))
+    def read_tree(self, element: Element, last: Mapping[str, Element], taken: set[str]) -> None:
+        tree_id = self.id_of(element)
+        if not element.attributes.get("ID") and len(list(self.trees())) > 1:
+            self.report("BT0712", element, tree_id, id=tree_id)
+        if last[tree_id] is not element:
+            name = _free(tree_id, taken | last.keys())
+            self.report("BT0713", element, name, id=tree_id, name=name)
+        else:
+            name = tree_id
+        taken.add(name)
+        if not element.children:
+            self.report("BT0722", element, name, id=name)
+        elif len(element.children) > 1:
+            self.report("BT0714", element, name, id=name, count=len(element.children))
+        made = self.tree_source(element, name)
+        made.is_renamed = name != tree_id
+        self.document.trees.append(made)
+
+    def trees(self) -> Iterator[Element]:
+        return (element for element in self.document.source.root.children if element.tag == "BehaviorTree")
+
+    def id_of(self, tree: Element) -> str:
+        return tree.attributes.get("ID") or self.document.main or "MainTree"
 
     def tree_source(self, element: Element, tree_id: str) -> TreeSource:
         explicit_ids = {below.attributes.get("_bts_id", "") for below in element.walk()}
@@ -150,7 +184,7 @@ class _Reader:
         ids = self.node_ids(element, explicit_ids)
         nodes: dict[str, Node] = {}
         for below in element.walk():
-            if below is not element:
+            if id(below) in ids:
                 node = self.node(below, ids, tree_id, result)
                 nodes[node.id] = node
                 result.elements[node.id] = below
@@ -163,19 +197,23 @@ class _Reader:
             nodes=nodes,
             drafts=tuple(tops[1:]),
             layout=element.attributes.get(LAYOUT, ""),
-            ports=tuple(model.ports.values()) if model else (),
+            ports=tuple(model.ports.values()) if model else self.defaults(element),
             attributes={key: text for key, text in element.attributes.items() if key not in known},
             file=self.file,
         )
         return result
+
+    def defaults(self, tree: Element) -> tuple[PortModel, ...]:
+        return defaults_of(tree) if self.document.is_of_py_trees else ()
 
     def node_ids(self, tree: Element, explicit: set[str]) -> dict[int, str]:
         """Returns each element's id: the one that it has, or the next free `n<number>` in pre-order."""
         ids: dict[int, str] = {}
         used: set[str] = set()
         number = 0
+        remaps = {id(remap) for below in tree.walk() for remap in remaps_of(below)}
         for below in tree.walk():
-            if below is tree:
+            if below is tree or id(below) in remaps:
                 continue
             own = below.attributes.get("_bts_id", "")
             if not own or own in used:
@@ -190,21 +228,28 @@ class _Reader:
     def node(self, element: Element, ids: dict[int, str], tree_id: str, into: TreeSource) -> Node:
         node_id = ids[id(element)]
         type_, attributes = self.typed(element, tree_id, node_id)
+        remaps = remaps_of(element)
+        changes = [("<remap>", "an attribute")] if remaps else []
         if not self.document.is_v4:
-            upgraded = upgrade(type_, attributes)
-            if upgraded.changes:
-                into.upgraded.add(node_id)
-                for before, after in upgraded.changes:
-                    self.report("BT0720", element, tree_id, node_id, before=before, after=after)
+            upgraded = (converted if self.document.is_of_py_trees else upgrade)(type_, attributes)
+            changes += upgraded.changes
             type_, attributes = upgraded.type, upgraded.attributes
+        if remaps:
+            attributes = remapped(attributes, remaps)
+        if changes:
+            into.upgraded.add(node_id)
+            for before, after in changes:
+                self.report("BT0720", element, tree_id, node_id, before=before, after=after)
         fields: dict[str, Any] = from_attributes(attributes, is_subtree=type_ == SUBTREE)
         fields["id"] = node_id
-        children = tuple(ids[id(child)] for child in element.children)
+        children = tuple(ids[id(child)] for child in element.children if id(child) in ids)
         return Node(type=type_, children=children, span=Span(element.line, element.column), **fields)
 
     def typed(self, element: Element, tree_id: str, node_id: str) -> tuple[str, Mapping[str, str]]:
         """Returns the type of an element in either form, and its other attributes."""
         attributes = element.attributes
+        if self.document.is_of_py_trees:
+            return element.tag, attributes
         if element.tag not in EXPLICIT:
             if "ID" in attributes and element.tag not in {SUBTREE, "SubTreePlus", "Subtree"}:
                 self.report("BT0715", element, tree_id, node_id, tag=element.tag)
@@ -239,7 +284,7 @@ class _Reader:
         type_ = type_name(cpp)
         own = _CPP_NAME.fullmatch(cpp) if type_ == "any" and cpp not in _TYPE_NAMES else None
         return PortModel(
-            name=attributes.get("name", ""),
+            name=attributes.get("label" if element.tag == "Parameter" else "name", ""),
             direction=_DIRECTIONS[element.tag],
             type=type_,
             named=own.group(1) if own else "",

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _START_TAG = re.compile(rb"<[^>\"']*(?:\"[^\"]*\"[^>\"']*|'[^']*'[^>\"']*)*>")
-_DECLARED = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([A-Za-z0-9._-]{1,40})[\"']")
+_DECLARED = re.compile(rb"\s*<\?xml[^>]*?encoding\s*=\s*[\"']([A-Za-z0-9._-]{1,40})[\"']")
+_LATE_DECLARATION = re.compile(rb"\s+<\?xml\s[^>]*\?>")
 _ENCODINGS = {"utf-8", "utf8", "us-ascii", "ascii", "iso-8859-1", "latin-1", "windows-1252", "utf-16"}
 
 
@@ -158,8 +159,11 @@ class _Builder:
         self.parser = parser
 
     def parse(self) -> Element:
+        # Tinyxml, which BehaviorTree.CPP uses, takes blanks before the declaration.
+        late = _LATE_DECLARATION.match(self.data)
+        shown = re.sub(rb"[^\n]", b" ", late.group()) + self.data[late.end() :] if late else self.data
         try:
-            self.parser.Parse(self.data, True)  # noqa: FBT003 - expat takes it by position only
+            self.parser.Parse(shown, True)  # noqa: FBT003 - expat takes it by position only
         except expat.ExpatError as error:
             place = Place(self.file, line=error.lineno, column=error.offset + 1)
             problem = expat.ErrorString(error.code) or "the text is not well formed"

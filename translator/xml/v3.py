@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from translator.tree import pointer
+from translator.tree import CONDITIONS, pointer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
+
+    from translator.xml.source import Element
 
 TYPES = {
     "SequenceStar": "SequenceWithMemory",
@@ -24,6 +26,14 @@ PORTS = {
         "threshold": "success_count",
     }
 }
+_SUBTREES = {"SubTree", "SubTreePlus", "Subtree"}
+_ONLY_IN_V3 = {"SequenceStar", "FallbackStar", "SubTreePlus", "RetryUntilSuccesful"}
+_ONLY_IN_V4 = {
+    *("AsyncSequence", "AsyncFallback", "SequenceWithMemory", "ParallelAll", "TryCatch", "RunOnce"),
+    *("Precondition", "SkipUnlessUpdated", "WaitValueUpdate", "LoopInt", "LoopDouble", "LoopString"),
+    *("LoopBool", "Script", "ScriptCondition", "UnsetBlackboard", "WasEntryUpdated", "Sleep"),
+}
+_ATTRIBUTES_OF_V4 = {*CONDITIONS, "_autoremap", "success_count", "failure_count"}
 CHECKS = {"BlackboardCheckInt", "BlackboardCheckDouble", "BlackboardCheckBool", "BlackboardCheckString"}
 
 
@@ -38,6 +48,30 @@ class Upgraded:
     type: str
     attributes: Mapping[str, str]
     changes: tuple[Change, ...] = ()
+
+
+def is_of_v4(root: Element) -> str | None:
+    """Returns what a document without a version has that only version 4 knows; None if nothing, or v3 too."""
+    found = None
+    for element in (below for tree in root.children if tree.tag == "BehaviorTree" for below in tree.walk()):
+        names = {element.tag, element.attributes.get("ID", "")}
+        if names & (_ONLY_IN_V3 | CHECKS) or "__shared_blackboard" in element.attributes:
+            return None
+        nodes = names & _ONLY_IN_V4
+        others = sorted(_ATTRIBUTES_OF_V4 & element.attributes.keys())
+        found = found or (f"<{nodes.pop()}>" if nodes else others[0] if others else None)
+    return found
+
+
+def remaps_of(element: Element) -> list[Element]:
+    """Returns the elements `<remap>` of a SubTree, with which version 2 wrote its ports."""
+    return [child for child in element.children if child.tag == "remap" and element.tag in _SUBTREES]
+
+
+def remapped(attributes: Mapping[str, str], remaps: Sequence[Element]) -> dict[str, str]:
+    """Returns the attributes of a SubTree with its `<remap>` elements as ports."""
+    pairs = ((remap.attributes.get("internal"), remap.attributes.get("external")) for remap in remaps)
+    return {**attributes, **{inside: f"{{{outside}}}" for inside, outside in pairs if inside and outside}}
 
 
 def upgrade(type_: str, attributes: Mapping[str, str]) -> Upgraded:

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 LAYOUT = "_bts_layout"
 INDENT = "  "
 EXPLICIT_TAGS = {"control": "Control", "decorator": "Decorator", "condition": "Condition"}
+# Tags that mean something else: a node whose type is called so is written in the explicit form.
+RESERVED_TAGS = frozenset(
+    {"Action", "BehaviorTree", "Condition", "Control", "Decorator", "TreeNodesModel", "include", "root"}
+)
 PORT_TAGS = {"input": "input_port", "output": "output_port", "inout": "inout_port"}
 CPP_TYPES = {
     "int": "int",
@@ -78,13 +82,11 @@ def node_lines(
     while stack:
         node_id, level, closing = stack.pop()
         node = tree.nodes[node_id]
-        tag = tag_of(node, project)
+        tag, id_ = tag_of(node, project)
         if closing:
             yield f"{indent * level}</{tag}>"
             continue
-        values = to_attributes(node)
-        if tag != node.type:
-            values = {"ID": node.type, **values}
+        values = {**id_, **to_attributes(node)}
         if node.children:
             yield f"{indent * level}<{tag}{_written(values)}>"
             stack.append((node_id, level, True))
@@ -93,14 +95,16 @@ def node_lines(
             yield f"{indent * level}<{tag}{_written(values)}/>"
 
 
-def tag_of(node: Node, project: Project) -> str:
-    """Returns the tag of a node: its type, or the explicit form if the type is not a valid XML name."""
-    if node.type == SUBTREE or is_xml_name(node.type):
-        return node.type
+def tag_of(node: Node, project: Project) -> tuple[str, dict[str, str]]:
+    """Returns the tag of a node: its type, or if that cannot be a tag the explicit form, with its `ID`."""
+    if node.type == SUBTREE or (is_xml_name(node.type) and node.type not in RESERVED_TAGS):
+        return node.type, {}
+    id_ = {"ID": node.type}
     model = project.model(node.type) or project.imported_model(node.type)
     if model is None:
-        return "Control" if len(node.children) > 1 else "Decorator" if node.children else "Action"
-    return EXPLICIT_TAGS.get(model.kind, "Action")
+        tag = "Control" if len(node.children) > 1 else "Decorator" if node.children else "Action"
+        return tag, id_
+    return EXPLICIT_TAGS.get(model.kind, "Action"), id_
 
 
 def _written(values: dict[str, str]) -> str:

@@ -80,3 +80,29 @@ class Wait(py_trees.behaviour.Behaviour):
     found = [item for item in findings(check_actions, project) if item.code == "BT0622"]
     assert [(item.place.file, item.place.line) for item in found] == [("actions/Wait.py", n) for n in lines]
     assert all(item.values["call"] == "time.sleep" for item in found)
+
+
+def test_values_that_a_message_refuses_are_reported_with_what_to_write(make_project):
+    source = """import py_trees
+from geometry_msgs.msg import Twist
+from tree_gardener.ports import Port, get_input
+
+
+class Drive(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"speed": Port(int)}
+
+    def update(self):
+        twist = Twist()
+        twist.linear.x = 1
+        twist.angular.z = get_input(self, "speed")
+        twist.lineer = 1.0
+        return py_trees.common.Status.RUNNING
+"""
+    project = make_project({"n1": {"type": "Drive", "ports": {"speed": "1"}}}, actions={"Drive": source})
+    found = {item.place.line: item for item in findings(check_actions, project)}
+    assert {line: item.code for line, item in found.items()} == {11: "BT0631", 12: "BT0631", 13: "BT0632"}
+    assert found[11].message == (
+        "geometry_msgs/Vector3.x takes the type float, and gets 1: ROS refuses it when the line runs."
+    )
+    assert found[11].hint == "Write 1.0."
+    assert found[13].hint == "The message has linear, angular."

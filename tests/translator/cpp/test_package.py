@@ -40,6 +40,18 @@ def test_examples_are_valid_packages(example, tmp_path) -> None:
     assert b"<BehaviorTree" in package.files[f"{package.name}/trees/{package.name}.xml"]
 
 
+def test_a_plain_install_which_states_no_version_is_found(example) -> None:
+    package = to_cpp_package(example)
+    cmake = package.files[f"{package.name}/CMakeLists.txt"].decode()
+    assert re.findall(r"find_package\(behaviortree_cpp\b([^)]*)\)", cmake) == [" REQUIRED"]
+    version = re.search(r'NOT behaviortree_cpp_VERSION MATCHES "(.*)"', cmake)
+    assert version is not None
+    pattern = version[1].replace("\\\\", "\\")  # as CMake reads it
+    assert [bool(re.match(pattern, each)) for each in ("4.6.1", "4.10.0", "3.8.6", "40.1", "5.0")] == [
+        *(True, True, False, False, False)
+    ]
+
+
 def test_a_node_is_a_class_with_its_docstring(example) -> None:
     package = to_cpp_package(example)
     register = package.files[f"{package.name}/src/register_nodes.cpp"].decode()

@@ -6,8 +6,10 @@ import json
 
 import pytest
 
+from tests.fakes.jderobot_projects import write_wanderer
 from tests.fakes.react_diagrams import chain
 from translator import TranslatorError, check, open_files
+from translator.archive import read_folder
 from translator.jderobot.project import import_jderobot, is_jderobot_project
 
 ACTION = b"import py_trees\n\nclass Forward(py_trees.behaviour.Behaviour):\n    def update(self): pass\n"
@@ -77,3 +79,14 @@ def test_what_is_no_project_is_refused():
     assert error.value.diagnostics[0].code == "BT0800"
     with pytest.raises(TranslatorError):
         import_jderobot({"graph.json": b'{"layers": []}'})
+
+
+def test_an_order_that_leaves_a_branch_out_is_said_with_the_one_that_does_not(tmp_path):
+    wrong, right = (
+        read_folder(write_wanderer(tmp_path / order, order)) for order in ("top-to-bottom", "bottom-to-top")
+    )
+    [found] = [item for item in import_jderobot(wrong).diagnostics if item.code == "BT0811"]
+    assert (found.values["child"], found.values["elder"]) == ("ReactiveFallback", "Advance")
+    assert "--order bottom-to-top" in found.hint
+    for project in (open_files(wrong, order="bottom-to-top"), import_jderobot(right)):
+        assert not {"BT0114", "BT0118", "BT0811"} & {item.code for item in check(project)}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from catkin_pkg.package import InvalidPackage, Person
 
 from translator import TranslatorError
-from translator.package.naming import package_name, problem_with, require_name
+from translator.package.naming import maintainer_problems, package_name, problem_with, require_name
+from translator.settings import Maintainer, Settings
 
 
 @pytest.mark.parametrize(
@@ -28,3 +30,18 @@ def test_a_name_that_cannot_be_is_refused_with_another(name: str) -> None:
     with pytest.raises(TranslatorError) as caught:
         require_name(name)
     assert problem_with(caught.value.diagnostics[0].values["suggestion"]) is None
+
+
+@pytest.mark.parametrize("email", ["", "ada@example.org", "a-b.c+d%e_f@x-y.co.uk"])
+def test_an_address_that_ros_reads_is_taken(email: str) -> None:
+    assert maintainer_problems(Settings(maintainer=Maintainer(name="Ada", email=email))) == []
+
+
+@pytest.mark.parametrize(
+    "email", ["ada", "ada@localhost", "ada@ex ample.org", ".ada@example.org", "ad\u00e1@a.org"]
+)
+def test_an_address_that_ros_refuses_is_an_error(email: str) -> None:
+    with pytest.raises(InvalidPackage):
+        Person("Ada", email=email).validate()
+    [found] = maintainer_problems(Settings(maintainer=Maintainer(name="Ada", email=email)))
+    assert (found.code, found.is_error) == ("BT0901", True)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.domains import own_domain_id
 from tests.tree_gardener.programs import Peer
 from translator import to_ros2_package
 
@@ -26,7 +27,7 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),
 ]
 
-DOMAIN_ID = 203
+DOMAIN_ID = own_domain_id()
 BLOCKS: dict[str, Any] = {
     "n1": {"type": "Sequence", "children": ["n2", "n3", "n4"]},
     "n2": {

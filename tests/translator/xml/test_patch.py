@@ -51,6 +51,14 @@ def test_value_that_is_gone(imported):
     assert written(project.with_tree(tree), newline) == TEXT.replace(""" b='x"y'""", "")
 
 
+@pytest.mark.parametrize("type_", ["Action", "Control", "3D scan"])
+def test_new_type_that_cannot_be_a_tag(imported, type_):
+    project, newline = imported
+    tree = project.main.edited("n3", type=type_)
+    expected = TEXT.replace("<AlwaysSuccess   />", f'<Action ID="{type_}"   />')
+    assert written(project.with_tree(tree), newline) == expected
+
+
 def test_new_type_keeps_the_form_of_the_tag(imported):
     project, newline = imported
     tree = project.main.edited("n2", type="Bar").edited("n1", type="Fallback")

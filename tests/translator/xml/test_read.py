@@ -168,7 +168,7 @@ TREE = '<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>'
         (TREE + "<BehaviorTree><AlwaysSuccess/></BehaviorTree>", "BT0712"),
         (TREE + TREE, "BT0713"),
         ('<BehaviorTree ID="T"><AlwaysSuccess/><AlwaysSuccess/></BehaviorTree>', "BT0714"),
-        ('<BehaviorTree ID="T"/>', "BT0714"),
+        ('<BehaviorTree ID="T"/>', "BT0722"),
         ('<BehaviorTree ID="T"><AlwaysSuccess ID="x"/></BehaviorTree>', "BT0715"),
         ('<BehaviorTree ID="T"><Action/></BehaviorTree>', "BT0716"),
         (TREE + "<TreeNodesModel><Action/></TreeNodesModel>", "BT0717"),

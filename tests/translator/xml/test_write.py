@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from xml.etree import ElementTree
 
+import py_trees
+import pytest
+
 from tests.translator.check.finding import LEAF
 from translator.xml.read import read_document
-from translator.xml.write import cpp_type, ordered_trees, tag_of, write_document
+from translator.xml.write import RESERVED_TAGS, cpp_type, ordered_trees, tag_of, write_document
+from tree_gardener import Status, Tree
 
 
 def test_the_main_tree_comes_first_and_the_models_last(make_project):
@@ -24,7 +28,24 @@ def test_the_main_tree_comes_first_and_the_models_last(make_project):
 
 def test_a_node_is_named_by_its_type(make_project):
     project = make_project({"n1": LEAF})
-    assert tag_of(project.trees["MainTree"].nodes["n1"], project) == "AlwaysSuccess"
+    assert tag_of(project.trees["MainTree"].nodes["n1"], project) == ("AlwaysSuccess", {})
+
+
+@pytest.mark.parametrize("type_", sorted(RESERVED_TAGS))
+def test_a_type_that_xml_reserves_has_the_explicit_form_and_runs(make_project, type_):
+    project = make_project({"n1": {"type": type_, "name": "go"}})
+    text = write_document(project)
+    assert f'<Action ID="{type_}" name="go"' in text
+    (source,) = read_document(text, file="t.xml").trees
+    assert [(node.type, node.name) for node in source.tree.walk()] == [(type_, "go")]
+
+    class Done(py_trees.behaviour.Behaviour):
+        def update(self):
+            return py_trees.common.Status.SUCCESS
+
+    tree = Tree.from_xml(text, {type_: Done})
+    tree.setup()
+    assert tree.tick_once() == Status.SUCCESS
 
 
 def test_types_of_ports_are_those_of_the_library():

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from tree_gardener import tree_tools
 from tree_gardener.errors import Diagnostic, LoadError, describe
+from tree_gardener.ros_fields import check_fields
 
 PACKAGE: Final = "actions"
 
@@ -44,6 +45,7 @@ def load_actions(
             if path.stem != "__init__"
         }
     tree_tools.install()
+    check_fields()  # an action may make messages while it is loaded
     loader = _Loader(sources, frozenset(keep))
     classes = {}
     problems = []

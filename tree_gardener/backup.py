@@ -1,6 +1,6 @@
 """Backups of a tree's blackboard, as BehaviorTree.CPP's ``BlackboardBackup`` and ``BlackboardRestore``."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from tree_gardener.blackboard import Entry
 from tree_gardener.values import ValueType
@@ -16,6 +16,9 @@ class Saved(NamedTuple):
     value: Any
 
 
+_LEVELS: Final = 100
+"""Levels of containers within containers that are copied."""
+
 Backup = tuple[dict[str, Saved], ...]
 """The entries of each scope, in the order of the tree's scopes."""
 
@@ -24,9 +27,12 @@ def backup(tree: "Tree") -> Backup:
     """Returns the entries of all scopes.
 
     Lists, dicts and sets are copied; other objects are kept by reference, as shared pointers are in C++.
+
+    Raises:
+        ValueError: an entry is nested too deeply, as a list that holds itself is.
     """
     return tuple(
-        {key: Saved(entry.type, _copied(entry.value)) for key, entry in board.entries.items()}
+        {key: Saved(entry.type, _Copy(key).of(entry.value)) for key, entry in board.entries.items()}
         for board in tree.boards
     )
 
@@ -50,15 +56,30 @@ def restore(tree: "Tree", saved: Backup) -> None:
             if entry is None:
                 entry = board.entries[key] = Entry(board, key, kind)
             entry.type = kind
-            entry.write(_copied(value))
+            entry.write(_Copy(key).of(value))
             if is_new:
                 entry.sequence = 0
 
 
-def _copied(value: Any) -> Any:
-    """Copies containers of values; a container of another class, such as a SharedQueue, is shared."""
-    if type(value) in (list, tuple, set):
-        return type(value)(_copied(item) for item in value)
-    if type(value) is dict:
-        return {key: _copied(item) for key, item in value.items()}
-    return value
+class _Copy:
+    """The copy of one entry, in which what several containers share stays shared."""
+
+    def __init__(self, key: str) -> None:
+        self._key = key
+        self._copies: dict[int, Any] = {}
+
+    def of(self, value: Any, levels: int = _LEVELS) -> Any:
+        """Copies containers of values; a container of another class, such as a SharedQueue, is shared."""
+        kind: Any = type(value)
+        if kind not in (list, tuple, set, dict):
+            return value
+        if id(value) in self._copies:
+            return self._copies[id(value)]
+        if not levels:
+            raise ValueError(f"the entry '{self._key}' is nested too deeply")
+        if kind is dict:
+            copy = {key: self.of(item, levels - 1) for key, item in value.items()}
+        else:
+            copy = kind([self.of(item, levels - 1) for item in value])
+        self._copies[id(value)] = copy
+        return copy

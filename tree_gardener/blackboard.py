@@ -5,7 +5,7 @@ A name is looked up in its own scope first. If that scope does not have it, the 
 entry may appear later.
 """
 
-from collections.abc import Callable, Iterator, MutableMapping
+from collections.abc import Callable, Iterable, Iterator, MutableMapping
 from typing import Any, Final
 
 from tree_gardener.errors import PortError
@@ -271,3 +271,15 @@ def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> No
         if kind.is_strong and kind is not declared:
             value = _converted(entry, value, kind, declared)
     entry.write(value if kind is None else _kept_kind(entry, value), writer)
+
+
+def board_at(boards: Iterable[Blackboard], path: str) -> Blackboard:
+    """Returns the scope with a path.
+
+    Raises:
+        KeyError: there is none.
+    """
+    for board in boards:
+        if board.path == path:
+            return board
+    raise KeyError(path)

@@ -20,6 +20,7 @@ from tree_gardener.values import (
     DOUBLE,
     INT,
     INT32,
+    INT64,
     INT_64,
     STRING,
     ConversionError,
@@ -100,22 +101,35 @@ def _scopes(tree: "Tree") -> dict[str, Blackboard]:
 
 
 def value_to_json(value: Any) -> Any:
-    """Returns the form of a value in JSON; None if it has none."""
-    if isinstance(value, str):
-        return str(value)
-    number = None if isinstance(value, Status) else as_number(value)
+    """Returns the form of a value in JSON; None if it has none, as an integer above 64 bits."""
+    kind = type(value)
+    if issubclass(kind, str):
+        return str.__str__(value)
+    number = None if kind is Status else as_number(value)
     if number is not None:
-        return number if math.isfinite(number) else None
-    if type(value) in (list, tuple):
+        return number if _is_written(number) else None
+    if kind in (list, tuple):
         return _list_to_json(value)
-    known = registered(type(value))
+    known = registered(kind)
     return known.to_json(value) if known is not None and known.to_json is not None else None
+
+
+def _is_written(number: float) -> bool:
+    if issubclass(type(number), float):
+        return math.isfinite(number)
+    return INT64[0] <= int.__int__(number) < 2**64  # type: ignore[arg-type]
 
 
 def _list_to_json(values: Any) -> list[Any] | None:
     """Returns a list, in which booleans stay booleans, as in a ``std::vector<bool>``."""
-    items = [value if isinstance(value, bool) else value_to_json(value) for value in values]
-    return None if any(item is None or isinstance(item, list) for item in items) else items
+    items = []
+    for value in values:
+        kind = type(value)
+        item = None if kind in (list, tuple) else value if kind is bool else value_to_json(value)
+        if item is None or isinstance(item, list):
+            return None
+        items.append(item)
+    return items
 
 
 def _value_of(document: Any) -> tuple[Any, ValueType | None] | None:

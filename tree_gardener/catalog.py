@@ -7,7 +7,7 @@ import pathlib
 from typing import Any, Final
 
 from tree_gardener.ports import NO_DEFAULT, PortSpec
-from tree_gardener.values import value_type
+from tree_gardener.values import queue_type, value_type
 
 PATH: Final = pathlib.Path(__file__).with_name("catalog.json")
 
@@ -52,7 +52,10 @@ class CatalogNode:
 def _spec(port: CatalogPort) -> PortSpec:
     default: Any = NO_DEFAULT if port.default is None else port.default
     # Built-in nodes miss their ports when they are ticked, as in BT.CPP, never at load.
-    return PortSpec(port.name, port.direction, value_type(port.type), default, description=port.description)
+    # The queue of a Loop fixes no type of its entry: a list or a text may be there, too.
+    is_queue = port.name == "queue" and port.type.startswith("list[")
+    kind = queue_type(port.type[len("list[") : -1]) if is_queue else value_type(port.type)
+    return PortSpec(port.name, port.direction, kind, default, description=port.description)
 
 
 @functools.cache

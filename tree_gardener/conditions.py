@@ -11,7 +11,7 @@ After a result, also after one that a pre-condition decided, ``_onSuccess`` or `
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
-from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.errors import PortError, ScriptError, TickError, shown
 from tree_gardener.node import Node
 from tree_gardener.script import Environment, Script, bind_run, bind_test, compile_script
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
@@ -92,7 +92,7 @@ class Guard:
         try:
             return condition.call()
         except (ScriptError, PortError) as error:
-            raise TickError(node, f"in the script '{condition.text}': {error}") from None
+            raise TickError(node, f"in the script '{shown(condition.text)}': {error}") from None
 
 
 def compile_conditions(attributes: Mapping[str, str]) -> dict[str, Script]:

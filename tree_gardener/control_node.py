@@ -58,8 +58,6 @@ class ControlNode:
     def __repr__(self) -> str:
         return f"<{type(self).__name__} '{self.name}'>"
 
-    # -- what you write -----------------------------------------------------------------------------
-
     def setup(self, **kwargs: Any) -> None:
         """Prepares the node once, before the first tick; ``kwargs["node"]`` is the rclpy node or None."""
 
@@ -83,8 +81,6 @@ class ControlNode:
 
     def shutdown(self) -> None:
         """Frees the resources that `setup` acquired; called once, at the end."""
-
-    # -- what you call ------------------------------------------------------------------------------
 
     @property
     def _node(self) -> "CustomControl":

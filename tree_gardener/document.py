@@ -12,11 +12,15 @@ from xml.parsers import expat
 
 from tree_gardener.errors import Diagnostic, LoadError
 
+NAMED_BY_ID: Final = frozenset(("Action", "Condition", "Control", "Decorator", "SubTree"))
+"""The tags of nodes whose ID says what they are."""
 MAX_BYTES: Final = 64 * 1024 * 1024
 MAX_ELEMENTS: Final = 1_000_000
 MAX_XML_DEPTH: Final = 1_000
 """The largest depth of XML elements. The depth of nodes is limited to 256, as in BT.CPP (`structure`)."""
 
+NO_ELEMENTS: Final[list[Any]] = []
+"""The children of elements that have none; never filled."""
 _HINTS: Final = {
     "mismatched tag": "close every element that is opened, in reverse order",
     "not well-formed (invalid token)": "attribute values need quotes; write '<' as &lt; and '&' as &amp;",
@@ -43,9 +47,14 @@ class Element:
     def __init__(self, tag: str, attributes: dict[str, str], offset: int) -> None:
         self.tag = tag
         self.attributes = attributes
-        self.children: list[Element] = []
+        self.children: list[Element] = NO_ELEMENTS
         self.text = ""
         self.offset = offset
+
+    @property
+    def type_id(self) -> str:
+        """The ID of a SubTree or of the explicit form, else the tag: the name of a node that has none."""
+        return self.attributes.get("ID", "") if self.tag in NAMED_BY_ID else self.tag
 
     def walk(self) -> Iterator["Element"]:
         """Yields the element and all its descendants, in the order of the document."""
@@ -144,12 +153,10 @@ class _Reader:
         self.name = name
         self.parser = expat.ParserCreate(encoding)
         self.parser.buffer_text = True
-        self.parser.StartElementHandler = self.start
-        self.parser.EndElementHandler = self.end
+        self.above = Element("", {}, 0)
+        """Holds the document element."""
+        self.handle([self.above])
         self.parser.StartDoctypeDeclHandler = self.refuse_dtd
-        self.stack: list[Element] = []
-        self.root: Element | None = None
-        self.count = 0
 
     def read(self) -> Document:
         try:
@@ -169,29 +176,47 @@ class _Reader:
                     )
                 ]
             ) from None
-        assert self.root is not None
-        return Document(self.name, self.data, self.root)
+        return Document(self.name, self.data, self.above.children[0])
 
-    def start(self, tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag, attributes, self.parser.CurrentByteIndex)
-        if self.stack:
-            self.stack[-1].children.append(element)
-        else:
-            self.root = element
-        self.stack.append(element)
-        self.count += 1
-        if self.count > MAX_ELEMENTS or len(self.stack) > MAX_XML_DEPTH:
-            self.fail("TG101", "the document has too many or too deeply nested elements", "use SubTrees")
-        if tag == "Code":
-            self.parser.CharacterDataHandler = self.characters
+    def handle(self, stack: list[Element]) -> None:
+        """Installs the handlers; `stack` are the open elements.
 
-    def end(self, tag: str) -> None:
-        self.stack.pop()
-        if tag == "Code":
-            self.parser.CharacterDataHandler = None
+        They are called for each element of a tree, so they are functions whose variables are at hand, and an
+        element is made without a call of its constructor.
+        """
+        parser, push, pop, make = self.parser, stack.append, stack.pop, Element.__new__
+        count = 0
 
-    def characters(self, text: str) -> None:
-        self.stack[-1].text += text
+        def start(tag: str, attributes: dict[str, str]) -> None:
+            nonlocal count
+            element = make(Element)
+            element.tag = tag
+            element.attributes = attributes
+            element.offset = parser.CurrentByteIndex
+            element.children = NO_ELEMENTS
+            element.text = ""
+            above = stack[-1]
+            if above.children:
+                above.children.append(element)
+            else:
+                above.children = [element]
+            push(element)
+            count += 1
+            if count > MAX_ELEMENTS or len(stack) > MAX_XML_DEPTH + 1:
+                self.fail("TG101", "the document has too many or too deeply nested elements", "use SubTrees")
+            if tag == "Code":
+                parser.CharacterDataHandler = characters
+
+        def end(tag: str) -> None:
+            pop()
+            if tag == "Code":
+                parser.CharacterDataHandler = None
+
+        def characters(text: str) -> None:
+            stack[-1].text += text
+
+        parser.StartElementHandler = start
+        parser.EndElementHandler = end
 
     def refuse_dtd(self, *_: Any) -> None:
         self.fail("TG103", "the document has a DTD", "remove <!DOCTYPE …>; documents need none")

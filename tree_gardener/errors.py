@@ -4,6 +4,7 @@
 TreeGardenerError
 ├── LoadError      a document that is refused; carries one Diagnostic for each thing that is wrong
 ├── TickError      a node that failed to do its work; carries node, file, line and the cause
+│   └── CallbackError      a callback that belongs to no node raised
 ├── ScriptError    a script that does not parse or cannot be evaluated; carries the span
 └── PortError      a port that cannot be read or written
     └── PortRefusedError   a new text for a port that is refused; carries the Diagnostic
@@ -12,10 +13,12 @@ TreeGardenerError
 
 import dataclasses
 import sys
-import traceback
 from collections.abc import Iterable, Sequence
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any, Final
+
+from tree_gardener.descriptions import error_text, text_of, traceback_text
+from tree_gardener.ros_fields import field_problem, users_frames
 
 if TYPE_CHECKING:
     from tree_gardener.node import Node
@@ -80,6 +83,14 @@ class LoadError(TreeGardenerError):
         super().__init__("\n".join(str(diagnostic) for diagnostic in self.diagnostics))
 
 
+_SHOWN: Final = 80
+
+
+def shown(script: str) -> str:
+    """Returns a script as messages show it: its first 80 characters."""
+    return script if len(script) <= _SHOWN else f"{script[: _SHOWN - 1]}…"
+
+
 class ScriptError(TreeGardenerError):
     """A script does not parse, or cannot be evaluated.
 
@@ -130,7 +141,10 @@ class TickError(TreeGardenerError):
         cause: the exception itself, or None when the engine found the fault.
         code: stable, such as ``TG701``, for a node that broke the contract of control nodes; else "".
         hint: what to do about it, or "".
+        has_begun: whether it was raised in the first tick of an action, which is not RUNNING yet.
     """
+
+    has_begun = False
 
     def __init__(  # noqa: PLR0913 - most are rare
         self,
@@ -161,13 +175,44 @@ class TickError(TreeGardenerError):
         super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{at}")
 
 
+class CallbackError(TickError):
+    """A callback that belongs to no node raised an exception."""
+
+    def __init__(self, cause: BaseException) -> None:
+        self.uid = 0
+        self.path = self.node_id = self.node_type = self.tree_id = self.code = self.hint = ""
+        self.cause = cause
+        self.message = describe(cause)
+        self.file, self.line = _locate(cause.__traceback__)
+        self.traceback_text = _format(cause)
+        at = f" at {self.file}:{self.line}" if self.file else ""
+        Exception.__init__(self, f"a callback that belongs to no node: {self.message}{at}")
+
+    @classmethod
+    def of(cls, error: BaseException) -> TickError:
+        """Returns an exception outside of a tick as an error with its place."""
+        return error if isinstance(error, TickError) else cls(error)
+
+
+def in_full(error: TickError) -> str:
+    """Returns an error with its traceback, for the author of the action."""
+    return f"{error}\n{error.traceback_text}"
+
+
+def warn_of(node: "Node", method: str, error: BaseException) -> None:
+    """Reports an exception of a user's method whose result nobody needs; it changes nothing."""
+    file, line = _locate(error.__traceback__)
+    at = f" at {file}:{line}" if file else ""
+    node.tree.warn(node, f"{method}() raised {describe(error)}{at}")
+
+
 _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
 _LIBRARIES = frozenset(("tree_gardener", "py_trees", "builtins", "abc"))
 
 
 def _locate(trace: TracebackType | None) -> tuple[str, int]:
     """Returns the innermost line of an action; if there is none, the innermost line outside of the engine."""
-    return _nearest((frame.filename, frame.lineno or 0) for frame in traceback.extract_tb(trace))
+    return _nearest(users_frames(trace))
 
 
 def _nearest(places: Iterable[tuple[str, int]]) -> tuple[str, int]:
@@ -218,12 +263,20 @@ def _format(cause: BaseException | None) -> str:
     trace = cause.__traceback__
     while trace is not None and trace.tb_frame.f_code.co_filename.startswith(_PACKAGE):
         trace = trace.tb_next
-    return "".join(traceback.format_exception(type(cause), cause, trace))
+    return traceback_of(cause, trace)
+
+
+def traceback_of(error: BaseException, trace: TracebackType | None = None) -> str:
+    """Returns the traceback of an exception, from its own beginning or a later one."""
+    text, problem = traceback_text(error, trace), field_problem(error)
+    return text.replace(str(error), problem) if problem else text
 
 
 def describe(error: BaseException) -> str:
     """Returns type and text of an exception, in one line."""
     if isinstance(error, SystemExit):
-        return f"the action called sys.exit({error.code!r})"
-    text = str(error)
+        return f"the action called sys.exit({text_of(error.code)})"
+    if problem := field_problem(error):
+        return problem
+    text = error_text(error)
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -2,12 +2,14 @@
 
 import pathlib
 from collections.abc import Mapping, Sequence
+from typing import Any
 
+from tree_gardener.actions import load_actions
 from tree_gardener.document import Document, Element, embedded_modules, embedded_sources, parse_document
 from tree_gardener.enums import read_enums
 from tree_gardener.errors import Diagnostic, LoadError
 from tree_gardener.registry import NodeType
-from tree_gardener.structure import Definition, StructureCheck, SubTreeModel, type_of
+from tree_gardener.structure import Definition, StructureCheck, SubTreeModel
 
 
 class Forest:
@@ -30,11 +32,34 @@ class Forest:
         self.modules: dict[str, str] = {}
         self.enums: dict[str, dict[str, int]] = {}
         self.main: Document | None = None
-        self._own_trees: list[str] = []
+        self._first: Document | None = None
+        self._main_from = 0
+        self._new: list[Definition] = []
 
     def read(self, text: str | bytes, name: str, base_path: pathlib.Path | None) -> None:
         """Parses a document and its includes; the document that is read last is the main one."""
+        self._main_from = len(self.documents)
         self.main = self._read(text, name, base_path, [])
+        self._first = self._first or self.main
+
+    def read_all(
+        self,
+        documents: Sequence[str | bytes],
+        text: str | bytes,
+        name: str,
+        base_path: str | pathlib.Path | None,
+    ) -> None:
+        """Parses a main document, and before it others, whose trees it can use."""
+        base = pathlib.Path(base_path) if base_path is not None else None
+        for index, document in enumerate(documents):
+            self.read(document, f"document {index + 1}", base)
+        self.read(text, name, base)
+
+    def with_actions(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Returns the given classes, and those of the actions whose sources are in the documents."""
+        missing = {action: source for action, source in self.sources.items() if action not in given}
+        loaded = load_actions({**self.modules, **missing}, only=missing) if missing else {}
+        return {**given, **loaded}
 
     def _read(
         self, text: str | bytes, name: str, base_path: pathlib.Path | None, above: list[pathlib.Path]
@@ -80,26 +105,38 @@ class Forest:
     def check(self, registry: Mapping[str, NodeType]) -> list[Diagnostic]:
         """Checks the structure of all documents and collects their trees."""
         problems = []
-        for document in self.documents:
+        before: dict[str, Definition] = {}
+        for index, document in enumerate(self.documents):
+            if index == self._main_from:
+                before = {tree: found for tree, found in self.definitions.items() if found.has_id}
             check = StructureCheck(document, registry)
             check.run()
             problems += check.problems
             self.definitions.update(check.definitions)
             self.models.update(check.models)
-            if document is self.main:
-                self._own_trees = list(check.definitions)
+        self._new = [found for tree, found in self.definitions.items() if tree not in before]
         return problems
 
     def main_tree(self, wanted: str | None) -> Definition:
-        """Returns the tree to run: the given one, that of ``main_tree_to_execute``, or the only one.
+        """Returns the tree to run.
+
+        It is the given one; that of ``main_tree_to_execute``; the only one of the document, or of it and its
+        includes; that which the first document names; or the only one of all.
 
         Raises:
             LoadError: no tree is named and there are several, or the named tree does not exist.
         """
         assert self.main is not None
-        named = wanted or self.main.root.attributes.get("main_tree_to_execute")
-        if named is None and len(self._own_trees) == 1:
-            named = self._own_trees[0]
+        assert self._first is not None
+        named: str | None = wanted or self.main.root.attributes.get("main_tree_to_execute")
+        if named is None:
+            own = [element for element in self.main.root.children if element.tag == "BehaviorTree"]
+            named = own[0].attributes.get("ID") if len(own) == 1 else None
+        if not named and len(self._new) == 1 and (self._new[0].tree_id or not self._new[0].has_id):
+            return self._new[0]
+        if not named:
+            only = next(iter(self.definitions)) if len(self.definitions) == 1 else None
+            named = self._first.root.attributes.get("main_tree_to_execute", only)
         if named is not None and named in self.definitions:
             return self.definitions[named]
         known = ", ".join(tree for tree in self.definitions if tree) or "none"
@@ -114,7 +151,7 @@ class Forest:
         problems: list[Diagnostic] = []
         done: set[str] = set()
         above: dict[str, None] = {main.tree_id: None}  # in order, and quick to look up
-        stack = [(main, iter(_subtrees(main)))]
+        stack = [(main, iter(main.subtrees))]
         while stack:
             definition, rest = stack[-1]
             element = next(rest, None)
@@ -141,16 +178,8 @@ class Forest:
                 )
             elif name not in done:
                 above[name] = None
-                stack.append((target, iter(_subtrees(target))))
+                stack.append((target, iter(target.subtrees)))
         return problems
-
-
-def _subtrees(definition: Definition) -> Sequence[Element]:
-    return [
-        element
-        for element in definition.body.walk()
-        if type_of(element) == "SubTree" and "ID" in element.attributes
-    ]
 
 
 def _package_folder(package: str) -> pathlib.Path | None:

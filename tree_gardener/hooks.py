@@ -10,7 +10,7 @@ round the node's own, made when the tree is linked, and does only what was asked
 import dataclasses
 import functools
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from tree_gardener.node import Execute, Leaf, Node
@@ -82,8 +82,22 @@ class Hooks:
         self.wiring: Wiring | None = None
         self.profile: Profile | None = None
 
+    @property
+    def are_none(self) -> bool:
+        """Whether no node has a hook of any kind."""
+        is_free = not self.hooks and not self.marks_leaves and self.log is None and self.counts is None
+        return is_free and self.wiring is None and self.profile is None and self.tree.node_times_s is None
+
+    def entries(self, nodes: Sequence[Node]) -> list[Execute]:
+        """Returns the functions that tick nodes together with their hooks."""
+        if not self.are_none:
+            return [node.entry() for node in nodes]
+        return [node.execute if node.guard is None else node.execute_guarded for node in nodes]
+
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks."""
+        if self.are_none:
+            return inner
         if self.has_debugger(node):
             inner = node.execute_guarded
         if self.tree.node_times_s is not None or self.has_hook(node):

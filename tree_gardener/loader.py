@@ -6,45 +6,72 @@ tick.
 """
 
 import logging
-import re
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Final, cast
 
+from tree_gardener import behaviour_ids
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.conditions import CONDITIONS, Guard, compile_conditions
-from tree_gardener.controls.custom import CustomControl
+from tree_gardener.controls.adapted import holds_nothing
 from tree_gardener.decorators.loop import Loop
+from tree_gardener.decorators.subtree import SubTree
 from tree_gardener.document import Element
 from tree_gardener.errors import Diagnostic, ScriptError, describe, raised_at
 from tree_gardener.forest import Forest
-from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.leaves.test_node import TestConfig, TestNode
-from tree_gardener.node import NO_PORTS, Instance, Node
+from tree_gardener.node import NO_PORTS, Control, Decorator, Instance, Node
 from tree_gardener.port_checks import PortProblem, check_text, declare_entry, script_problem
-from tree_gardener.ports import IDENTITY, NO_DEFAULT, BoundPorts, Manifest, pointer_key
+from tree_gardener.ports import NO_DEFAULT, BoundPorts, Manifest, entry_key, is_port_name, pointer_key
 from tree_gardener.rebind import rebind
 from tree_gardener.registry import NodeType
 from tree_gardener.script import Environment, compile_script
-from tree_gardener.structure import Definition, type_of
+from tree_gardener.structure import EXPLICIT, Definition, type_of
 from tree_gardener.substitution import Rule
-from tree_gardener.values import (
-    DOUBLE,
-    INT,
-    INT32,
-    INT64,
-    INT_64,
-    ConversionError,
-    ValueType,
-    parse_bool,
-)
+from tree_gardener.values import ConversionError, parse_bool, typed_constant
 
 if TYPE_CHECKING:
+    from tree_gardener.callbacks import UsersNode
     from tree_gardener.tree import Tree
 
 MAX_PROBLEMS: Final = 100
-_INTEGER = re.compile(r"-?[0-9]+\Z")
-_REAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
+constant: Final = typed_constant
+behaviour_ids.install()
 _LOG = logging.getLogger(__name__)
+
+
+class _Level:
+    """Elements of which nodes are to be made, below one node.
+
+    Attributes:
+        definition: their tree.
+        elements: those that are left.
+        instance: their instance of the tree.
+        parent: the node above them; None above the root.
+        depth: their depth.
+        is_attached: whether they become a part of the tree. What does not is checked and has entries on the
+            blackboard: it is below a leaf that replaces another node.
+        made: their nodes.
+    """
+
+    __slots__ = ("definition", "depth", "elements", "instance", "is_attached", "made", "parent")
+
+    def __init__(  # noqa: PLR0913 - all of a level
+        self,
+        definition: Definition,
+        elements: Iterable[Element],
+        instance: Instance,
+        parent: Node | None,
+        depth: int,
+        *,
+        is_attached: bool,
+    ) -> None:
+        self.definition = definition
+        self.elements = iter(elements)
+        self.instance = instance
+        self.parent = parent
+        self.depth = depth
+        self.is_attached = is_attached
+        self.made: list[Node] = []
 
 
 class Builder:
@@ -61,8 +88,9 @@ class Builder:
         self.nodes: list[Node] = []
         self.boards: list[Blackboard] = [tree.blackboard]
         self.definition: Definition
+        self.number = 0  # as BehaviorTree.CPP counts nodes
         self.paths = {""}  # of the SubTrees; that of the main tree is empty
-        self.depths: list[int] = []
+        self.depth = 0
 
     def report(  # noqa: PLR0913 - one diagnostic
         self,
@@ -86,109 +114,141 @@ class Builder:
     def build(self, main: Definition) -> list[Node]:
         """Makes all nodes of the tree, in pre-order; adds errors to `problems`."""
         instance = Instance(main.tree_id, self.tree.blackboard, None)
-        stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [
-            (main, main.body, instance, None, 1)
-        ]
-        children: dict[int, list[Node]] = {}
-        while stack and len(self.problems) < MAX_PROBLEMS:
-            definition, element, instance, parent, depth = stack.pop()
-            self.definition = definition
-            node = self.make(element, instance, parent)
-            if parent is not None:
-                children.setdefault(parent.uid, []).append(node)
-            self.depths.append(depth)
-            if element.tag == "SubTree" and not isinstance(node, TestNode):
-                target = self.forest.definitions[element.attributes["ID"]]
-                inner = Instance(target.tree_id, self.scope(node, instance), node)
-                stack.append((target, target.body, inner, node, depth + 1))
-            elif not isinstance(node, TestNode):
-                stack.extend(
-                    [(definition, child, instance, node, depth + 1) for child in reversed(element.children)]
-                )
-        for node in self.nodes:
-            node.children = tuple(children.get(node.uid, ()))
+        stack = [_Level(main, (main.body,), instance, None, 1, is_attached=True)]
+        problems, make = self.problems, self.make
+        while stack and len(problems) < MAX_PROBLEMS:
+            level = stack[-1]
+            self.definition = level.definition
+            made = level.made
+            for element in level.elements:
+                node = make(element, level)
+                made.append(node)
+                if element.children or element.tag == "SubTree":
+                    if (below := self.below(element, node, level)) is not None:
+                        stack.append(below)
+                    break
+                if len(problems) >= MAX_PROBLEMS:
+                    return self.nodes
+            else:
+                stack.pop()
+                if level.parent is not None and level.is_attached:
+                    level.parent.children = tuple(made)
+        if self.rules:
+            for node in self.nodes:
+                self.count(node)
         return self.nodes
 
-    # -- one node -----------------------------------------------------------------------------------
+    def count(self, node: Node) -> None:
+        """Reports a node with children that replaces one whose children it cannot have."""
+        exactly = isinstance(node, Decorator) and len(node.children) != 1
+        if exactly or (isinstance(node, Control) and not node.children):
+            message = f"a rule replaces '{node.name}' by {'a decorator' if exactly else 'a control node'}"
+            needs = "exactly 1 child" if exactly else "children"
+            self.report(node.element, "TG606", f"{message}, which needs {needs}", "name a leaf in the rule")
 
-    def make(self, element: Element, instance: Instance, parent: Node | None) -> Node:
+    def below(self, element: Element, node: Node, level: _Level) -> _Level | None:
+        """Returns what to make below a node; below a leaf, which replaces another node, it is in no tree."""
+        depth, is_attached = level.depth + 1, level.is_attached and isinstance(node, Control)
+        if not isinstance(node, SubTree):
+            return _Level(
+                *(level.definition, element.children, level.instance, node, depth), is_attached=is_attached
+            )
+        target = self.forest.definitions.get(element.attributes["ID"])
+        if target is None or target.tree_id in level.instance.above():
+            self.problems += self.forest.check_cycles(level.definition)
+            return None
+        inner = Instance(target.tree_id, self.scope(node, level.instance), node)
+        return _Level(target, (target.body,), inner, node, depth, is_attached=is_attached)
+
+    def make(self, element: Element, level: _Level) -> Node:
         """Makes one node."""
-        attributes = element.attributes
-        kind = self.registry[type_of(element)]
-        uid = len(self.nodes) + 1
-        name = attributes.get(
-            "name", attributes.get("ID", kind.name) if element.tag == "SubTree" else kind.name
-        )
+        attributes, tag, instance = element.attributes, element.tag, level.instance
+        kind = given = self.registry[tag if tag not in EXPLICIT else type_of(element)]
+        if attributes:
+            name = attributes.get("name")
+            if name is None:
+                name = element.type_id
+        else:
+            name = tag
+        number = self.number = self.number + 1
         config = None
-        type_name = kind.name
         if self.rules:
-            kind, config = self.substituted(element, kind, name, instance, uid)
-        ports = self.ports(element, kind) if element.tag != "SubTree" else NO_PORTS
-        node = kind.node_class(type_name, name, kind.manifest, ports)
-        node.uid = uid
+            kind, config = self.substituted(element, given, name, instance)
+        # A node that replaces another has the ports, the defaults and the type of that one.
+        ports = NO_PORTS
+        manifest = given.manifest
+        if tag == "SubTree":
+            manifest = manifest if kind is given else None
+        if (attributes or given.has_required) and (tag != "SubTree" or kind is not given):
+            ports = self.ports(element, given, manifest, kind.node_class)
+        node = kind.node_class(given.name, name, manifest, ports)
         node.element = element
         node.instance = instance
         node.board = instance.board
         node.tree = self.tree
-        node.parent = parent
-        self.nodes.append(node)
+        if level.is_attached:
+            node.parent = level.parent
+            self.nodes.append(node)
+            node.uid = uid = len(self.nodes)
+            self.depth = max(self.depth, level.depth)
+        else:
+            node.uid = uid = -number
+        if uid != number:
+            self.tree.numbers[uid] = number
         if config is not None:
             assert isinstance(node, TestNode)
             node.config = config
         if ports:
-            self.declare(element, kind, instance.board)
-        for attribute in attributes:
-            if attribute in CONDITIONS:
-                self.guard(node)
-                break
+            self.declare(element, given, instance.board)
+        if attributes and not CONDITIONS.isdisjoint(attributes):
+            self.guard(node)
         if node.NEEDS:
             self.construct(node)
-        if isinstance(node, (BehaviourLeaf, CustomControl)):
-            self.bind(node, kind)
+        if (behaviour_class := kind.behaviour_class) is not None:
+            self.bind(cast("UsersNode", node), kind, behaviour_class)
         return node
 
     def substituted(
-        self, element: Element, kind: NodeType, name: str, instance: Instance, uid: int
+        self, element: Element, kind: NodeType, name: str, instance: Instance
     ) -> tuple[NodeType, TestConfig | None]:
         """Returns the node's type after substitution; for a TestNode also its configuration."""
         prefix = instance.path()
-        local = name if "name" in element.attributes else f"{type_of(element)}::{uid}"
+        local = f"{name}::{self.number}" if name == element.type_id else name
         path = f"{prefix}/{local}" if prefix else local
         for rule in self.rules:
             if not rule.matches(name, kind.name, path):
                 continue
             if rule.config is not None:
+                if problem := rule.config.problem:
+                    self.report(
+                        element, "TG603", f"the configuration of the rule '{rule.pattern}': {problem}"
+                    )
                 return self.registry["TestNode"], rule.config
-            if rule.type in self.registry:
+            if rule.type in self.registry and rule.type != "SubTree":
                 return self.registry[rule.type], None
-            self.report(
-                element, "TG603", f"the substitution rule '{rule.pattern}' names no node: '{rule.type}'"
-            )
+            what = "a SubTree, which cannot replace another node" if rule.type == "SubTree" else "no node"
+            message = f"the substitution rule '{rule.pattern}' names {what}: '{rule.type}'"
+            self.report(element, "TG603", message)
         return kind, None
 
-    def ports(self, element: Element, kind: NodeType) -> Mapping[str, str]:
+    def ports(
+        self, element: Element, kind: NodeType, manifest: Manifest | None, node_class: type[Node]
+    ) -> Mapping[str, str]:
         """Returns the ports that the document gives a node, and the textual defaults of the others."""
-        manifest = kind.manifest
         if manifest is None:
-            return {
-                name: value
-                for name, value in element.attributes.items()
-                if name[0].isalpha() and name not in IDENTITY
-            }
+            return {name: value for name, value in element.attributes.items() if is_port_name(name)}
         given = {}
         for name, value in element.attributes.items():
-            if name[0] == "_" or name in IDENTITY:
-                continue
             spec = manifest.get(name)
             if spec is not None:
                 given[name] = value
-                self.found(element, name, check_text(kind.node_class, spec, value))
-            elif kind.name != "TestNode" and name[0].isalpha():
+                self.found(element, name, check_text(node_class, spec, value))
+            elif kind.name != "TestNode" and is_port_name(name):
                 known = ", ".join(manifest) or "it has none"
                 self.report(
                     element, "TG301", f"{kind.name} has no port '{name}'", f"its ports: {known}", name
                 )
-        for spec in manifest.values():
+        for spec in manifest.values() if kind.has_required else ():
             if spec.required and spec.name not in given and spec.default is NO_DEFAULT:
                 hint = f'write {spec.name}="…"'
                 self.report(element, "TG302", f"the port '{spec.name}' of {kind.name} needs a value", hint)
@@ -247,19 +307,23 @@ class Builder:
             return
         node.guard = Guard(scripts, Environment(node.board, self.tree.enums, node.uid))
 
-    def bind(self, node: BehaviourLeaf | CustomControl, kind: NodeType) -> None:
+    def bind(self, node: "UsersNode", kind: NodeType, behaviour_class: type[Any]) -> None:
         """Makes the behaviour of an action, or the object of a control node."""
-        assert kind.behaviour_class is not None
         try:
             if kind.takes_ports:
                 node.bound = BoundPorts(bound_ports(node))
-                behaviour = kind.behaviour_class(node.name, ports=node.bound)
+                behaviour = behaviour_class(node.name, ports=node.bound)
             else:
-                behaviour = kind.behaviour_class(node.name)
+                behaviour = behaviour_class(node.name)
             behaviour.tree_gardener_node = node
             node.bind(behaviour)
-            rebind(behaviour)
-            node.note_early_reads()
+            if kind.has_py_trees_ports:
+                rebind(behaviour)
+            if node.inputs or node.bound is not None:
+                node.note_early_reads()
+            if holds_nothing(behaviour, node.element.children):
+                message = f"{kind.name} has 0 children and needs 1 or more"
+                self.report(node.element, "TG210", message, "add some, here or in its __init__")
         except (Exception, SystemExit) as error:
             _LOG.debug("the action %s cannot be made", kind.name, exc_info=True)
             hint = "look at its __init__: it is called with the node's name"
@@ -267,24 +331,22 @@ class Builder:
             place = f" at {file}:{line}" if file else ""
             self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}{place}", hint)
 
-    # -- SubTrees -----------------------------------------------------------------------------------
-
-    def scope(self, node: Node, instance: Instance) -> Blackboard:
+    def scope(self, node: SubTree, instance: Instance) -> Blackboard:
         """Makes the blackboard for the tree that a SubTree node calls."""
         element = node.element
-        path = node.path
+        path = node.scope
         if path in self.paths:
             name = element.attributes.get("name", "")
             message = f"two SubTrees here are named '{name}'" if path else "the SubTree's name is empty"
             self.report(element, "TG501", message, "give each its own name, or none", "name")
         self.paths.add(path)
         board = instance.board.child()
-        board.locate = lambda: node.path
+        board.locate = lambda: node.scope
         self.boards.append(board)
         board.autoremap = self.autoremap(element)
         for port, text in self.remapping(element, autoremap=board.autoremap).items():
-            key_outside = pointer_key(text, port)
-            if key_outside is not None:
+            key_outside = entry_key(text)
+            if key_outside != text:
                 board.remapping[port] = key_outside
             else:
                 value, kind = constant(text)
@@ -306,7 +368,9 @@ class Builder:
     def remapping(self, element: Element, *, autoremap: bool) -> dict[str, str]:
         """Returns the SubTree's ports, with the defaults of its model."""
         given = {
-            name: text for name, text in element.attributes.items() if name[0] != "_" and name not in IDENTITY
+            name: f"{{{name}}}" if text == "{=}" else text
+            for name, text in element.attributes.items()
+            if is_port_name(name)
         }
         model = self.forest.models.get(element.attributes["ID"])
         if model is None or autoremap:
@@ -314,7 +378,7 @@ class Builder:
         for name, default in model.ports.items():
             if name in given:
                 continue
-            if default is None:
+            if not default:
                 message = f"the SubTree '{element.attributes['ID']}' needs a value for its port '{name}'"
                 self.report(
                     element, "TG503", message, f'write {name}="…", or give it a default in TreeNodesModel'
@@ -322,20 +386,6 @@ class Builder:
             else:
                 given[name] = default
         return given
-
-
-def constant(text: str) -> tuple[Any, ValueType | None]:
-    """Returns the value of a constant for a SubTree, with its type.
-
-    None for a text, whose entry has no type.
-    """
-    if _INTEGER.match(text):
-        number = int(text)
-        if INT64[0] <= number <= INT64[1]:
-            return number, INT if INT32[0] <= number <= INT32[1] else INT_64
-    if _REAL.match(text):
-        return float(text), DOUBLE
-    return text, None
 
 
 class PortText(str):

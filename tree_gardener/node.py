@@ -11,7 +11,7 @@ reports the reset if the status changes. Without observers, `journal` is None, a
 
 import enum
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final, TypeVar
 
 from tree_gardener.errors import PortError, TickError
 from tree_gardener.ports import BoundPorts, Manifest, read_port, write_port
@@ -24,12 +24,17 @@ if TYPE_CHECKING:
     from tree_gardener.observe import Recorder
     from tree_gardener.tree import Tree
 
+T = TypeVar("T")
 Execute = Callable[[], Status]
 Flash = tuple[int, Status]
 Mark = tuple["Node", tuple[Flash, ...]]
 """A report of results of a node and of nodes below it, all of which are IDLE if it is IDLE."""
 Marks = tuple[Mark, Mark, Mark]
 NO_PORTS: Final[Mapping[str, str]] = {}
+NO_TICKS: Final[list[Execute]] = []
+"""The ticks of nodes without children; never filled."""
+NO_INPUTS: Final[dict[str, Any]] = {}
+"""The inputs of nodes that have read none; never filled."""
 
 
 class Kind(enum.Enum):
@@ -52,9 +57,23 @@ class Instance:
         self.board = board
         self.subtree = subtree
 
+    def above(self) -> "set[str]":
+        """Returns the IDs of this tree and of the trees around it."""
+        found = {self.tree_id}
+        node = self.subtree
+        while node is not None:
+            found.add(node.instance.tree_id)
+            node = node.instance.subtree
+        return found
+
     def path(self) -> str:
-        """Returns the path of the SubTree node, or "" for the main tree."""
-        return "" if self.subtree is None else self.subtree.path
+        """Returns the path of the scope: that of the SubTree node, or "" for the main tree."""
+        parts = []
+        node = self.subtree
+        while node is not None:
+            parts.append(node.scope_path)
+            node = node.instance.subtree
+        return "/".join(reversed(parts))
 
 
 class _Statuses:
@@ -115,13 +134,13 @@ class Node(_Statuses):
         self.name = name
         self.manifest = manifest
         self.ports = ports
-        self.inputs: dict[str, Any] = {}
+        self.inputs = NO_INPUTS
         self.bound: BoundPorts | None = None
         self.early: frozenset[str] = frozenset()
         self.uid = 0
         self.parent: Node | None = None
         self.children: tuple[Node, ...] = ()
-        self.ticks: list[Execute] = []
+        self.ticks: list[Execute] = NO_TICKS
         self.status = IDLE
         self.guard: Guard | None = None
         self.journal: Recorder | None = None
@@ -132,22 +151,27 @@ class Node(_Statuses):
         self.instance: Instance
         self.element: Element
 
-    # -- identity -----------------------------------------------------------------------------------
+    @property
+    def number(self) -> int:
+        """The number of the node in BehaviorTree.CPP, which also counts the nodes below replaced ones."""
+        return self.tree.numbers.get(self.uid, self.uid)
 
     @property
     def local_path(self) -> str:
-        """The last part of the path: the name, or ``Type::uid`` if the node was given none."""
-        return self.name if "name" in self.element.attributes else f"{self.type}::{self.uid}"
+        """The last part of the path: the name, or ``Type::number`` if it has none, or that of its type."""
+        kind = self.element.type_id
+        return f"{kind}::{self.number}" if self.name == kind else self.name
+
+    @property
+    def scope_path(self) -> str:
+        """The last part of the path of a SubTree's nodes; other nodes have none."""
+        return self.local_path
 
     @property
     def path(self) -> str:
         """The names of the SubTrees that contain the node, and its own name, joined by ``/``."""
-        parts = [self.local_path]
-        around = self.instance.subtree
-        while around is not None:
-            parts.append(around.local_path)
-            around = around.instance.subtree
-        return "/".join(reversed(parts))
+        prefix = self.instance.path()
+        return f"{prefix}/{self.local_path}" if prefix else self.local_path
 
     @property
     def node_id(self) -> str:
@@ -179,8 +203,6 @@ class Node(_Statuses):
     def __repr__(self) -> str:
         return f"<{self.type} '{self.path}' {self.status.name}>"
 
-    # -- ticking ------------------------------------------------------------------------------------
-
     # The next two are abstract: each family of nodes has its own.
 
     def execute(self) -> Status:
@@ -205,7 +227,7 @@ class Node(_Statuses):
 
     def rewire(self) -> None:
         """Looks up how the children are ticked, also for a tick of this node that is in progress."""
-        self.ticks[:] = [child.entry() for child in self.children]
+        self.ticks[:] = self.tree.entries_of(self.children)
 
     def prepare(self) -> None:
         """Initialises the node's state; called once, when the tree is complete."""
@@ -273,8 +295,6 @@ class Node(_Statuses):
         """Returns the status that the node had while it was ticked, before its result was set."""
         return RUNNING if before in self.MARKS_RUNNING else before
 
-    # -- ports and errors ---------------------------------------------------------------------------
-
     @property
     def ports_read(self) -> frozenset[str]:
         """The ports that were read since `note_early_reads`."""
@@ -297,6 +317,13 @@ class Node(_Statuses):
             return read_port(self, port)
         except PortError as error:
             raise TickError(self, str(error)) from None
+
+    def get_or(self, port: str, otherwise: T) -> T:
+        """Reads a port of the node; returns `otherwise` if it cannot be read."""
+        try:
+            return read_port(self, port)  # type: ignore[no-any-return]
+        except PortError:
+            return otherwise
 
     def put(self, port: str, value: Any) -> None:
         """Writes a port of the node.
@@ -426,6 +453,9 @@ class Leaf(Node):
     __slots__ = ()
     KIND = Kind.ACTION
     MARKS_RUNNING = ()
+
+    def link(self) -> None:
+        """Does nothing: a leaf has no children."""
 
     def halt(self) -> None:
         """Makes the node IDLE."""

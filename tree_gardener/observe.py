@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry, Journal
 from tree_gardener.node import Flash, Mark, Node
+from tree_gardener.py_trees_board import PyTreesBoard
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
@@ -44,13 +45,14 @@ class TickChanges:
         changed: nodes whose status differs from that after the previous tick, with the new status.
         flashed: nodes that returned a status within the tick and no longer have it after the tick: a SUCCESS
             or FAILURE that the parent reset, or SKIPPED. A node that was ticked twice may be listed twice.
+        forced: the uids of the nodes whose result in this tick was forced by a debugger.
         blackboard: entries that were written, also between the tick before and this one.
         duration_s: the duration of the tick.
         node_times_s: the seconds that each node took, including the nodes below it, by uid; empty unless
             requested.
     """
 
-    __slots__ = ("blackboard", "changed", "duration_s", "flashed", "node_times_s", "tick")
+    __slots__ = ("blackboard", "changed", "duration_s", "flashed", "forced", "node_times_s", "tick")
 
     def __init__(
         self,
@@ -65,6 +67,7 @@ class TickChanges:
         self.flashed = flashed
         self.blackboard = blackboard
         self.duration_s = duration_s
+        self.forced: list[int] = []
         self.node_times_s: dict[int, float] = {}
 
     def __repr__(self) -> str:
@@ -80,21 +83,24 @@ class Recorder:
     Attributes:
         touched: nodes that started, or whose reported status was reset.
         results: reports of what nodes returned in this tick, except RUNNING, in order.
+        forced: the uids of the nodes whose result in this tick was forced.
         is_disturbed: whether changes were reported within a tick, since a node halted or ticked the tree.
         writes: is called with each write to the blackboard as it happens, and the uid of its writer.
         watch: is called likewise, also while the tree is not observed; set it by `watch_writes`.
     """
 
     __slots__ = (
-        *("entries", "is_disturbed", "is_ticking", "observers", "results", "touched", "tree", "watch"),
-        "writes",
+        *("entries", "forced", "is_disturbed", "is_ticking", "observers", "outside", "results", "touched"),
+        *("tree", "watch", "writes"),
     )
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
         self.observers: list[Observer] = []
+        self.outside = PyTreesBoard()
         self.touched: list[Node] = []
         self.results: list[Mark] = []
+        self.forced: list[int] = []
         self.is_ticking = self.is_disturbed = False
         self.entries: dict[int, tuple[Entry, int]] = {}
         self.writes: Journal | None = None
@@ -114,6 +120,7 @@ class Recorder:
             node.journal = self
         # All nodes, since one that the current tick ticks without reports may change its status afterwards.
         self.touched[:] = self.tree.nodes
+        self.outside.begin(self.tree.nodes)
         for board in self.tree.boards:
             board.journal = self.written
             for entry in board.entries.values():
@@ -126,6 +133,7 @@ class Recorder:
         for board in self.tree.boards:
             board.journal = self.watch
         self.touched.clear()
+        self.forced.clear()
         self.entries = {}
 
     def watch_writes(self, watch: Journal | None) -> None:
@@ -212,11 +220,21 @@ class Recorder:
         if self.entries:
             entries = [change(entry, writer) for entry, writer in self.entries.values()]
             self.entries = {}
+        if self.outside.is_used:
+            entries += [_outside(place, value) for place, value in self.outside.changes()]
         changes = TickChanges(self.tree.tick_number, changed, flashed, entries, duration_s)
+        if self.forced:
+            changes.forced, self.forced = self.forced, []
         if self.tree.node_times_s is not None:
             changes.node_times_s = self.tree.node_times_s
             self.tree.node_times_s = {}
         return changes
+
+
+def _outside(place: tuple[str, str], value: tuple[str, Any] | None) -> BlackboardChange:
+    """Returns an entry of py_trees in the form that observers receive; nobody knows who wrote it."""
+    kind, shown = value or ("empty", None)
+    return BlackboardChange(*place, kind, shown, removed=value is None, writer_uid=0)
 
 
 def change(entry: Entry, writer: int) -> BlackboardChange:

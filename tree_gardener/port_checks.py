@@ -24,10 +24,11 @@ class PortProblem(NamedTuple):
 def check_text(node_class: "type[Node]", spec: PortSpec, text: str) -> PortProblem | None:
     """Checks a literal against the type of its port."""
     if pointer_key(text, spec.name) is not None:
-        return None
-    if text.count("{") != text.count("}") and text.strip()[:1] == "{":
-        message = f"'{text}' opens a brace and does not close it"
-        return PortProblem("TG303", message, "an entry is written {key}")
+        is_bare = text[0] == "{" and text[-1] == "}"
+        if is_bare or not spec.type.is_strong or spec.type in (STRING, STATUS):
+            return None
+        message = f"the port '{spec.name}' of type {spec.type.name} takes no blanks round '{text.strip()}'"
+        return PortProblem("TG303", message, "remove them")
     if spec.direction == OUTPUT:
         message = f"the output port '{spec.name}' needs an entry, not '{text}'"
         problem = PortProblem("TG304", message, f"write {{{text or 'key'}}}")
@@ -41,6 +42,9 @@ def _check_type(spec: PortSpec, text: str) -> PortProblem | None:
     try:
         spec.type.parse(text)
     except ConversionError as error:
+        if text.strip()[:1] == "{":
+            message = f"'{text}' opens a brace and does not close it"
+            return PortProblem("TG303", message, "an entry is written {key}")
         message = f"the port '{spec.name}' is of type {spec.type.name}: {error}"
         return PortProblem("TG305", message, "write a literal of that type, or a {key}")
     return None

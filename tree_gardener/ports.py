@@ -10,6 +10,7 @@ class Forward(py_trees.behaviour.Behaviour):
 """
 
 import dataclasses
+import functools
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Final
@@ -31,7 +32,10 @@ NO_DEFAULT: Final = EMPTY
 IDENTITY: Final = frozenset(("name", "ID"))
 """Attributes of a node in XML that are no ports."""
 
-_POINTER = re.compile(r"[ \t\r\n]*\{(.+)\}[ \t\r\n]*\Z", re.DOTALL)
+FORBIDDEN: Final = re.compile(r"""[\x00-\x20\x7f/\\:*?|.<>&"']""")
+"""A character that no ID and no name of a port may have."""
+_LETTER = re.compile("[A-Za-z]")
+_POINTER = re.compile(r" *\{(.+)\} *\Z", re.DOTALL)
 
 
 class Port:
@@ -85,6 +89,22 @@ class PortSpec:
 
 
 Manifest = Mapping[str, PortSpec]
+
+
+@functools.lru_cache
+def is_port_name(attribute: str) -> bool:
+    """Returns whether an attribute of a node in XML is a port; others mean nothing to the engine."""
+    return (
+        _LETTER.match(attribute) is not None
+        and attribute not in IDENTITY
+        and FORBIDDEN.search(attribute) is None
+    )
+
+
+def entry_key(text: str) -> str:
+    """Returns the name of an entry that a port is given bare or in braces; ``{=}`` has no meaning here."""
+    match = _POINTER.match(text) if "{" in text else None
+    return text if match is None else match.group(1)
 
 
 def pointer_key(text: str, port: str) -> str | None:

@@ -6,9 +6,14 @@ from tree_gardener.errors import PortError
 from tree_gardener.ports import get_input, set_output
 
 
+def has_ports(cls: type) -> bool:
+    """Returns whether a class has py_trees' ``PortsMixin``."""
+    return hasattr(cls, "setup_ports") and hasattr(cls, "_set_output")
+
+
 def rebind(behaviour: Any) -> None:
     """Redirects a behaviour with py_trees' ``PortsMixin`` to the tree's ports; others stay unchanged."""
-    if not hasattr(behaviour, "setup_ports") or not hasattr(behaviour, "_set_output"):
+    if not has_ports(type(behaviour)):
         return
 
     def read(port_name: str, default: Any = None) -> Any:

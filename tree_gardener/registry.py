@@ -17,7 +17,7 @@ from tree_gardener.controls.if_then_else import IfThenElse
 from tree_gardener.controls.parallel import Parallel, ParallelAll
 from tree_gardener.controls.reactive import ReactiveFallback, ReactiveSequence
 from tree_gardener.controls.sequence import AsyncSequence, Sequence, SequenceWithMemory
-from tree_gardener.controls.switch import Switch
+from tree_gardener.controls.switch import SWITCHES
 from tree_gardener.controls.try_catch import TryCatch
 from tree_gardener.controls.while_do_else import WhileDoElse
 from tree_gardener.decorators.loop import Loop
@@ -36,7 +36,8 @@ from tree_gardener.leaves.scripts import Script, ScriptCondition
 from tree_gardener.leaves.sleep import Sleep
 from tree_gardener.leaves.test_node import TestNode
 from tree_gardener.node import Control, Decorator, Kind, Leaf, Node
-from tree_gardener.ports import INOUT, INPUT, OUTPUT, Manifest, PortSpec, manifest_of
+from tree_gardener.ports import INOUT, INPUT, NO_DEFAULT, OUTPUT, Manifest, PortSpec, manifest_of
+from tree_gardener.rebind import has_ports
 from tree_gardener.ros_nodes import NODES as ROS_NODES
 from tree_gardener.values import STATUS, ValueType, queue_type, value_type
 
@@ -52,10 +53,11 @@ BUILT_IN: Final[Mapping[str, type[Node]]] = {
             *(UnsetBlackboard, WasEntryUpdated, Sleep, TestNode, SubTree),
         )
     },
-    **{f"Switch{cases}": Switch for cases in range(2, 7)},
+    **SWITCHES,
     **{f"Loop{kind}": Loop for kind in ("Int", "Double", "String", "Bool")},
 }
 
+_SHIPPED: Final = "tree_gardener.nav2."
 OLD_NAMES: Final = {
     "SequenceStar": "SequenceWithMemory",
     "FallbackStar": "Fallback",
@@ -92,6 +94,16 @@ class NodeType:
     max_children: int | None
     behaviour_class: type[Any] | None = None
     takes_ports: bool = False
+
+    @functools.cached_property
+    def has_required(self) -> bool:
+        """Whether a tree must give a port a value."""
+        return any(spec.required and spec.default is NO_DEFAULT for spec in (self.manifest or {}).values())
+
+    @functools.cached_property
+    def has_py_trees_ports(self) -> bool:
+        """Whether the access to its ports is to be redirected."""
+        return self.behaviour_class is not None and has_ports(self.behaviour_class)
 
     @property
     def is_own(self) -> bool:
@@ -135,7 +147,7 @@ def build_registry(
             problems.append(Diagnostic("TG601", f"'{name}' is the name of a built-in node", hint, node=name))
             continue
         try:
-            registry[name] = _user_type(name, cls, types or {})
+            registry[name] = _user_type(name, cls, types) if types else _type_alone(name, cls)
         except (TypeError, ValueError) as error:
             file, line = place_of(cls) if isinstance(cls, type) else ("", 0)
             message = f"'{name}' cannot be a node: {error}"
@@ -143,6 +155,17 @@ def build_registry(
     if problems:
         raise LoadError(problems)
     return registry
+
+
+def _type_alone(name: str, cls: Any) -> NodeType:
+    """Returns the type of a class whose ports name no types; nodes of Nav2 are read once a process."""
+    is_shipped = isinstance(cls, type) and cls.__module__.startswith(_SHIPPED)
+    return _shipped_type(name, cls) if is_shipped else _user_type(name, cls, {})
+
+
+@functools.cache
+def _shipped_type(name: str, cls: type) -> NodeType:
+    return _user_type(name, cls, {})
 
 
 def _user_type(name: str, cls: Any, types: Mapping[str, ValueType]) -> NodeType:
@@ -179,7 +202,7 @@ def _own_type(name: str, cls: type, own: type[ControlNode], types: Mapping[str, 
         )
     if is_decorator and (least, most) != (1, 1):
         raise ValueError("a decorator has exactly one child: leave out MIN_CHILDREN and MAX_CHILDREN")
-    if type(least) is not int or least < 1:
+    if own is cls and (type(least) is not int or least < 1):
         raise ValueError(f"its MIN_CHILDREN is {least!r} and must be 1 or more")
     if most is not None and (type(most) is not int or most < least):
         raise ValueError(f"its MAX_CHILDREN is {most!r} and must be None, or {least} or more")

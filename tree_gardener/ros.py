@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from tree_gardener.errors import TickError
+from tree_gardener.errors import TickError, in_full
 from tree_gardener.node import Node
 from tree_gardener.runner import Overrun, Runner
 from tree_gardener.status import Status
@@ -34,6 +34,7 @@ class RosRunner:
     """Ticks a tree from a timer of an rclpy node, once per period of ROS time.
 
     All publishers and subscriptions of the actions live on that node, so that spinning it runs everything.
+    Where it is an `ActionNode`, halting the tree commands zero where the run has commanded motion.
 
     Args:
         tree: made with ``clock=RosClock(node)``.
@@ -64,6 +65,10 @@ class RosRunner:
         self._log = node.get_logger()
         more.setdefault("fault", self._log_fault)
         more.setdefault("overrun", self._log_overrun)
+        commanded = getattr(node, "commanded", None)
+        if commanded is not None:
+            commanded.begin()
+            more.setdefault("halted", commanded.stop)
         tree.on_warning = self._log_warning
         if not is_set_up:
             tree.setup(node=node)
@@ -82,13 +87,20 @@ class RosRunner:
         self._node.destroy_timer(self._timer)
         self.runner.stop()
 
+    def fail(self, error: BaseException) -> None:
+        """Ends the run after an exception outside of a tick, such as that of a callback."""
+        self.runner.fail(error)
+
     def shutdown(self) -> None:
-        """Halts the tree, which stops the robot, and ends the timer."""
+        """Halts the tree, which stops the robot, and ends the timer; logs what an action raises then."""
         self._node.destroy_timer(self._timer)
-        self.runner.shutdown()
+        try:
+            self.runner.shutdown()
+        except TickError as error:
+            self._log_fault(error)
 
     def _log_fault(self, error: TickError) -> None:
-        self._log.error(f"{error}\n{error.traceback_text}")
+        self._log.error(in_full(error))
 
     def _log_warning(self, node: Node, message: str) -> None:
         self._log.warning(f"node '{node.path}': {message}")

@@ -8,16 +8,19 @@ action, it goes through error processing and is unconfigured again.
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.lifecycle.node import LifecycleNodeMixin
 
-from tree_gardener.errors import LoadError, TickError
+from tree_gardener.errors import CallbackError, LoadError, TickError, in_full
 from tree_gardener.ros import RosRunner
 from tree_gardener.ros_entities import OpenedSince
 from tree_gardener.ros_node import ActionNode, MainThreadGroup
+from tree_gardener.ros_spinning import LAST_ZEROS
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 
+RCLError = rclpy_implementation.RCLError
 _OK = TransitionCallbackReturn.SUCCESS
 _REFUSED = TransitionCallbackReturn.FAILURE
 _ERROR = TransitionCallbackReturn.ERROR
@@ -32,10 +35,23 @@ class LifecycleActionNode(LifecycleNodeMixin, ActionNode):
         self._life: TreeLife | None = None
         ActionNode.__init__(self, *arguments, **options)
         LifecycleNodeMixin.__init__(self, callback_group=self.group)
+        self._change = self._service_change_state.callback
+        self._service_change_state.callback = self._change_if_it_fits
 
     def manage(self, life: "TreeLife") -> None:
         """Gives the node its tree."""
         self._life = life
+
+    def _change_if_it_fits(self, request: Any, response: Any) -> Any:
+        """Answers a request that does not fit the state with false, as rclcpp does; rclpy raises."""
+        try:
+            return self._change(request, response)
+        except RCLError:
+            wanted = request.transition.label or f"the transition {request.transition.id}"
+            state = self._state_machine.current_state[1]
+            self.get_logger().warning(f"{wanted} is refused: the node is {state}")
+            response.success = False
+            return response
 
     def on_configure(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Loads the tree and sets it up; the node stays unconfigured if that fails."""
@@ -81,13 +97,40 @@ class TreeLife:
         self._opened: OpenedSince | None = None
         self._tree: Tree | None = None
         self._runner: RosRunner | None = None
-        self._is_over = False
+        self._is_over = self._is_broken = False
 
     def step(self) -> None:
         """Deactivates the node if its tree ended; called between the callbacks of the executor."""
         if self._is_over:
             self._is_over = False
             self._node.trigger_deactivate()
+        if self._is_broken:
+            self._is_broken = False
+            self._node.trigger_cleanup()
+
+    def fail(self, error: BaseException) -> bool:
+        """Handles an exception outside of a tick: ends the run, or gives up the tree that is configured.
+
+        Returns whether there is a tree.
+        """
+        if self._runner is not None:
+            self._runner.fail(error)
+        elif self._tree is not None:
+            self._log.error(in_full(CallbackError.of(error)))
+            self._is_broken = True
+        return self._tree is not None
+
+    def end(self, await_answers: Callable[[], None]) -> None:
+        """Halts the tree and shuts it down, at the end of the program.
+
+        Args:
+            await_answers: waits for the servers whose goals the tree cancelled.
+        """
+        if self._runner is not None:
+            self._runner.stop()
+            await_answers()
+            self._node.commanded.stop(LAST_ZEROS)
+        self.cleanup()
 
     def configure(self) -> TransitionCallbackReturn:
         """Loads the tree and calls the ``setup`` of its actions."""
@@ -101,7 +144,7 @@ class TreeLife:
             for problem in error.diagnostics:
                 self._log.error(str(problem))
         except TickError as error:
-            self._log.error(f"{error}\n{error.traceback_text}")
+            self._log.error(in_full(error))
         else:
             self._tree = tree
             return _OK
@@ -129,17 +172,19 @@ class TreeLife:
         if runner is None:
             return _OK
         runner.stop()
+        self._node.commanded.end()
         return _OK if runner.runner.error is None else _ERROR
 
     def cleanup(self) -> TransitionCallbackReturn:
         """Shuts the tree down; an action that raises then is reported and does not keep it."""
         self.deactivate()
+        self._is_broken = False
         tree, self._tree = self._tree, None
         if tree is not None:
             try:
                 tree.shutdown()
             except TickError as error:
-                self._log.error(f"{error}\n{error.traceback_text}")
+                self._log.error(in_full(error))
         if self._opened is not None:
             self._opened.close()
             self._opened = None

@@ -5,24 +5,24 @@ import hashlib
 import importlib
 import pathlib
 import re
-import signal
 import sys
-import threading
-import time
 from typing import TYPE_CHECKING, Any
 
 from lxml import etree
 
 from tree_gardener.actions import load_actions
-from tree_gardener.errors import LoadError, TickError
+from tree_gardener.errors import CallbackError, LoadError, TickError, in_full
 from tree_gardener.groot import GrootError
 from tree_gardener.ros import RosClock, RosRunner
+from tree_gardener.ros_fields import check_fields
 from tree_gardener.ros_parameters import (
     ParameterError,
     Parameters,
     RunParameters,
     ServerParameters,
+    asks_for_help,
     declare_parameters,
+    help_text,
     read_arguments,
     sim_time_problem,
 )
@@ -30,6 +30,7 @@ from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 
 if TYPE_CHECKING:
+    import threading
     from collections.abc import Callable, Iterator, Sequence
 
     from tree_gardener.blackboard import Blackboard
@@ -43,8 +44,6 @@ _MESSAGES = (
     "std_msgs",
     "visualization_msgs",
 )
-_POLL_S = 0.1
-_CLOCK_S = 5.0
 _LAST_SPINS = 20
 """How often a server handles what is ready when it ends: requests for results come, and results go."""
 
@@ -62,8 +61,9 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     """Ticks a tree by ROS time until it ends, or the process receives a signal.
 
     The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish``, ``on_error``,
-    ``groot2_port`` and ``groot2_host``, and ROS 2's own ``use_sim_time``. The arguments of this function are
-    their defaults; arguments such as ``--tick_hz=5.0`` on the command line override all others.
+    ``groot2_port``, ``groot2_host`` and ``cmd_timeout_s``, and ROS 2's own ``use_sim_time``. The arguments
+    of this function are their defaults; arguments such as ``--tick_hz=5.0`` on the command line override all
+    others.
 
     Args:
         tree_file: the document; a self-contained one brings the sources of its actions.
@@ -75,12 +75,13 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
         args: the command line; that of the process, without the program, if None.
 
     Returns:
-        The exit status: 0 when the tree ended or was stopped, 1 after an error.
+        The exit status: 0 when the tree ended or was stopped, 1 if it cannot start, 3 if an error ended it.
     """
     from tree_gardener.ros_node import ActionNode  # noqa: PLC0415 - the engine works without ROS
 
-    def run(node: Any, settings: RunParameters) -> int:
-        return _run(node, settings, actions)
+    def run(node: Any, settings: RunParameters, stop: "threading.Event") -> int:
+        """Ticks a behaviour tree until it ends."""
+        return _run(node, settings, actions, stop)
 
     defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
     return _on_a_node(node_name, ActionNode, defaults, args, run)
@@ -114,12 +115,13 @@ def serve_trees(  # noqa: PLR0913 - what main.py states of one package
         args: the command line; that of the process, without the program, if None.
 
     Returns:
-        The exit status: 0 when the server was stopped, 1 if it cannot start.
+        The exit status: 0 when the server was stopped, 1 if it cannot start, 3 if an error ended it.
     """
     from tree_gardener.ros_node import ActionNode  # noqa: PLC0415 - the engine works without ROS
 
-    def serve(node: Any, settings: ServerParameters) -> int:
-        return _serve(node, settings, actions)
+    def serve(node: Any, settings: ServerParameters, stop: "threading.Event") -> int:
+        """Runs behaviour trees by name, as the server of an action."""
+        return _serve(node, settings, actions, stop)
 
     defaults = ServerParameters(pathlib.Path(tree_file), tick_hz, on_error, action_name, on_new_goal)
     return _on_a_node(node_name, ActionNode, defaults, args, serve)
@@ -140,12 +142,13 @@ def manage_tree(  # noqa: PLR0913 - what main.py states of one package
     The arguments are those of `run_tree`.
 
     Returns:
-        The exit status: 0 when the node was stopped, 1 if it cannot start.
+        The exit status: 0 when the node was stopped, 1 if it cannot start, 3 if an error ended it.
     """
     from tree_gardener.ros_lifecycle import LifecycleActionNode  # noqa: PLC0415 - the engine works without ROS
 
-    def live(node: Any, settings: RunParameters) -> int:
-        return _live(node, settings, actions)
+    def live(node: Any, settings: RunParameters, stop: "threading.Event") -> int:
+        """Runs a behaviour tree as a lifecycle node."""
+        return _live(node, settings, actions, stop)
 
     defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
     return _on_a_node(node_name, LifecycleActionNode, defaults, args, live)
@@ -156,32 +159,40 @@ def _on_a_node(
     kind: Any,
     defaults: Parameters,
     args: "Sequence[str] | None",
-    run: "Callable[[Any, Parameters], int]",
+    run: "Callable[[Any, Parameters, threading.Event], int]",
 ) -> int:
     """Makes a node, reads its parameters, and runs something on it; returns the exit status."""
+    check_fields()  # before the first message is loaded
     import rclpy  # noqa: PLC0415 - the engine works without ROS
     from rclpy.logging import get_logger  # noqa: PLC0415
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
-    _import_messages()
+    from tree_gardener.ros_spinning import NOT_STARTED, handled_signals  # noqa: PLC0415
+
     words = list(sys.argv[1:] if args is None else args)
+    if asks_for_help(words):
+        what = " ".join((run.__doc__ or "").split())
+        print(help_text(name, what, defaults))  # noqa: T201 - it is what the command line asked for
+        return 0
+    _import_messages()
     log = get_logger(name)
-    try:
-        # rclpy's own handlers would end the context before the tree could stop the robot.
-        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
-        node = _made(name, kind, words, type(defaults))
-    except Exception as error:
-        log.error(f"the node cannot start: {_in_one_line(error)}")
-        rclpy.try_shutdown()
-        return 1
-    try:
-        return run(node, declare_parameters(node, defaults, words))
-    except ParameterError as error:
-        log.error(str(error))
-        return 1
-    finally:
-        node.close()
-        rclpy.try_shutdown()
+    with handled_signals() as stop:
+        try:
+            # rclpy's own handlers would end the context before the tree could stop the robot.
+            rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
+            node = _made(name, kind, words, type(defaults))
+        except Exception as error:
+            log.error(f"the node cannot start: {_in_one_line(error)}")
+            rclpy.try_shutdown()
+            return NOT_STARTED
+        try:
+            return run(node, declare_parameters(node, defaults, words), stop)
+        except ParameterError as error:
+            log.error(str(error))
+            return NOT_STARTED
+        finally:
+            node.close()
+            rclpy.try_shutdown()
 
 
 def _made(
@@ -207,27 +218,46 @@ def _in_one_line(error: Exception) -> str:
     return text or type(error).__name__
 
 
-def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
-    with _spinning(node) as (stop, spin), _groot2(node, settings) as follow:
-        runner = _load(node, settings, actions, stop)
+def _run(
+    node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: "threading.Event"
+) -> int:
+    from tree_gardener.ros_spinning import (  # noqa: PLC0415 - the engine works without ROS
+        BROKEN,
+        ENDED,
+        LAST_ZEROS,
+        NOT_STARTED,
+        spinning,
+    )
+
+    with spinning(node, stop, settings.cmd_timeout_s) as spinner, _groot2(node, settings) as follow:
+        runner = _load(node, settings, actions, spinner.stop)
         if runner is None:
-            return 1
+            return NOT_STARTED
         follow(runner.runner.tree)
-        while spin():
-            pass
-        failed = runner.runner.error is not None
-        runner.shutdown()
-        return 1 if failed else 0
+        spinner.broken = runner.fail
+        try:
+            while spinner.once():
+                pass
+        finally:
+            runner.stop()
+            spinner.await_answers()
+            runner.shutdown()
+            node.commanded.stop(LAST_ZEROS)
+            node.commanded.end()
+        return ENDED if runner.runner.error is None else BROKEN
 
 
-def _serve(node: Any, settings: ServerParameters, actions: "str | pathlib.Path | None") -> int:
+def _serve(
+    node: Any, settings: ServerParameters, actions: "str | pathlib.Path | None", stop: "threading.Event"
+) -> int:
     from tree_gardener.ros_node import MainThreadGroup  # noqa: PLC0415 - the engine works without ROS
     from tree_gardener.ros_server import TreeServer  # noqa: PLC0415
+    from tree_gardener.ros_spinning import NOT_STARTED, spinning  # noqa: PLC0415
 
     def load(name: str, board: "Blackboard") -> Tree:
         return follow(_tree(node, settings.tree, actions, main_tree=name or None, blackboard=board))
 
-    with _spinning(node) as (_, spin), _groot2(node, settings) as follow:
+    with spinning(node, stop, settings.cmd_timeout_s) as spinner, _groot2(node, settings) as follow:
         try:
             server = TreeServer(
                 node,
@@ -243,21 +273,27 @@ def _serve(node: Any, settings: ServerParameters, actions: "str | pathlib.Path |
                 f"{error}: put btcpp_ros2_interfaces of github.com/BehaviorTree/BehaviorTree.ROS2 into the"
                 " workspace, build it and source it"
             )
-            return 1
+            return NOT_STARTED
         node.get_logger().info(f"trees of {settings.tree.name} run by {settings.action_name}")
-        while spin():
-            server.step()
-        server.stop()
-        for _ in range(_LAST_SPINS):
-            spin()
-        server.close()
-        return 0
+        spinner.broken = spinner.unless(server.fail)
+        try:
+            while spinner.once(server.step):
+                pass
+        finally:
+            server.stop(spinner.await_answers)
+            for _ in range(_LAST_SPINS):
+                spinner.once()
+            server.close()
+        return _status_of(spinner, node)
 
 
-def _live(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
+def _live(
+    node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: "threading.Event"
+) -> int:
     from tree_gardener.ros_lifecycle import TreeLife  # noqa: PLC0415 - the engine works without ROS
+    from tree_gardener.ros_spinning import spinning  # noqa: PLC0415
 
-    with _spinning(node) as (_, spin), _groot2(node, settings) as follow:
+    with spinning(node, stop, settings.cmd_timeout_s) as spinner, _groot2(node, settings) as follow:
         life = TreeLife(
             node,
             lambda: follow(_tree(node, settings.tree, actions)),
@@ -266,10 +302,23 @@ def _live(node: Any, settings: RunParameters, actions: "str | pathlib.Path | Non
             on_error=settings.on_error,
         )
         node.manage(life)
-        while spin():
-            life.step()
-        life.cleanup()
-        return 0
+        spinner.broken = spinner.unless(life.fail)
+        try:
+            while spinner.once(life.step):
+                pass
+        finally:
+            life.end(spinner.await_answers)
+        return _status_of(spinner, node)
+
+
+def _status_of(spinner: Any, node: Any) -> int:
+    """Returns the exit status of a program that runs trees on request; logs the error that ended it."""
+    from tree_gardener.ros_spinning import BROKEN, ENDED  # noqa: PLC0415 - the engine works without ROS
+
+    if spinner.error is None:
+        return ENDED
+    node.get_logger().error(in_full(CallbackError.of(spinner.error)))
+    return BROKEN
 
 
 @contextlib.contextmanager
@@ -295,57 +344,8 @@ def _groot2(node: Any, settings: "RunParameters | ServerParameters") -> "Iterato
         yield follow
 
 
-@contextlib.contextmanager
-def _spinning(node: Any) -> "Iterator[tuple[threading.Event, Callable[[], bool]]]":
-    """Yields an event that ends the run, and the function that spins the node once; signals set the event."""
-    import rclpy  # noqa: PLC0415
-    from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
-
-    from tree_gardener.ros_node import guard_rclpy  # noqa: PLC0415
-
-    stop = threading.Event()
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    end_guard = guard_rclpy()
-    patience = _ClockPatience(node)
-
-    def spin() -> bool:
-        if rclpy.ok():
-            executor.spin_once(timeout_sec=0.0 if stop.is_set() else _POLL_S)
-            patience.look()
-        return bool(rclpy.ok()) and not stop.is_set()
-
-    try:
-        with _handled_signals(stop):
-            yield stop, spin
-    finally:
-        end_guard()
-        executor.shutdown()
-
-
-class _ClockPatience:
-    """Warns once that no simulated time arrives; the tree would wait silently otherwise."""
-
-    def __init__(self, node: Any) -> None:
-        self._node = node
-        self._waits = bool(node.get_parameter("use_sim_time").value)
-        self._end_s = time.monotonic() + _CLOCK_S
-
-    def look(self) -> None:
-        """Checks the clock from time to time."""
-        if not self._waits:
-            return
-        if self._node.get_clock().now().nanoseconds > 0:
-            self._waits = False
-        elif time.monotonic() > self._end_s:
-            self._waits = False
-            self._node.get_logger().warning(
-                f"use_sim_time is true, but no time came on /clock in {_CLOCK_S:.0f} s; the tree waits for it"
-            )
-
-
 def _load(
-    node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: threading.Event
+    node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: "threading.Event"
 ) -> "RosRunner | None":
     from tree_gardener.ros_node import MainThreadGroup  # noqa: PLC0415 - the engine works without ROS
 
@@ -373,7 +373,7 @@ def _load(
         for problem in error.diagnostics:
             log.error(str(problem))
     except TickError as error:  # the `setup` of an action; its traceback is for its author
-        log.error(f"{error}\n{error.traceback_text}")
+        log.error(in_full(error))
     return None
 
 
@@ -426,15 +426,3 @@ def _import_messages() -> None:
     for package in _MESSAGES:
         with contextlib.suppress(ImportError):
             importlib.import_module(f"{package}.msg")
-
-
-@contextlib.contextmanager
-def _handled_signals(stop: threading.Event) -> "Iterator[None]":
-    """Ends the run in order after SIGINT or SIGTERM, while the context lasts."""
-    numbers = (signal.SIGINT, signal.SIGTERM)
-    before = [signal.signal(number, lambda *_: stop.set()) for number in numbers]
-    try:
-        yield
-    finally:
-        for number, handler in zip(numbers, before, strict=True):
-            signal.signal(number, handler)

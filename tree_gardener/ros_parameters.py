@@ -19,6 +19,7 @@ SIM_TIME = "use_sim_time"
 PREEMPT: Final = "preempt"
 QUEUE: Final = "queue"
 REJECT: Final = "reject"
+CMD_TIMEOUT_S: Final = 0.5
 ON_NEW_GOAL: Final = (PREEMPT, QUEUE, REJECT)
 
 
@@ -37,6 +38,8 @@ class RunParameters:
         on_error: ``stop`` or ``failure``.
         groot2_port: the port at which Groot2 can follow the tree; 0 for none.
         groot2_host: the address to listen at for it.
+        cmd_timeout_s: the seconds without a command after which the motion that it commanded is stopped; 0
+            for never.
     """
 
     tree: pathlib.Path
@@ -45,6 +48,7 @@ class RunParameters:
     on_error: str
     groot2_port: int = 0
     groot2_host: str = LOCALHOST
+    cmd_timeout_s: float = CMD_TIMEOUT_S
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,7 +61,7 @@ class ServerParameters:
         on_error: ``stop`` or ``failure``.
         action_name: the name of its action.
         on_new_goal: ``preempt``, ``queue`` or ``reject``.
-        groot2_port, groot2_host: as of `RunParameters`, for the tree that runs.
+        groot2_port, groot2_host, cmd_timeout_s: as of `RunParameters`, for the tree that runs.
     """
 
     tree: pathlib.Path
@@ -67,12 +71,64 @@ class ServerParameters:
     on_new_goal: str
     groot2_port: int = 0
     groot2_host: str = LOCALHOST
+    cmd_timeout_s: float = CMD_TIMEOUT_S
 
 
 Parameters = TypeVar("Parameters", RunParameters, ServerParameters)
 
 
+_MEANINGS: Final = {
+    "tree": "path of the tree's XML",
+    "tick_hz": "ticks a second",
+    "on_finish": "when the tree ends: stop, or repeat",
+    "on_error": "when an action raises an error: stop, or failure of that action alone",
+    "cmd_timeout_s": "seconds without a command after which what the tree moves is stopped; 0: never",
+    "action_name": "the server's action",
+    "on_new_goal": "while a tree runs: preempt it, queue the goal, or reject it",
+    "groot2_port": "port at which Groot2 can follow the tree; 0 for none",
+    "groot2_host": "address to listen at for Groot2",
+    SIM_TIME: "true to tick by simulated time, false for the computer's",
+}
+
 NAMES = (*(field.name for field in dataclasses.fields(RunParameters)), SIM_TIME)
+
+
+def asks_for_help(words: Sequence[str]) -> bool:
+    """Returns whether a command line has ``--help`` or ``-h`` outside of the arguments for ROS."""
+    is_for_ros = False
+    for word in words:
+        is_for_ros = word != "--" and (is_for_ros or word == "--ros-args")
+        if not is_for_ros and word in {"--help", "-h"}:
+            return True
+    return False
+
+
+def help_text(name: str, what: str, defaults: RunParameters | ServerParameters) -> str:
+    """Returns the help of a program: its arguments with their defaults, and where else they are set.
+
+    Args:
+        name: the name of the node.
+        what: a sentence about the program.
+        defaults: the values of its parameters.
+    """
+    values = {field.name: getattr(defaults, field.name) for field in dataclasses.fields(defaults)}
+    rows = [
+        f"  --{key}=…".ljust(20) + f"{_MEANINGS[key]} (default: {_shown(value)})"
+        for key, value in {**values, "tree": str(defaults.tree), SIM_TIME: False}.items()
+    ]
+    return "\n".join(
+        (
+            f"{name}: {what}",
+            "",
+            f"Usage: {name} [--PARAMETER=VALUE …] [--ros-args …]",
+            "",
+            *rows,
+            f"  {'--help, -h':<18}print this and end",
+            "",
+            "Each is a parameter of the node, too: --ros-args -p NAME:=VALUE, or --params-file FILE.",
+            "--ros-args -r OLD:=NEW changes names, -r __ns:=/robot1 the namespace.",
+        )
+    )
 
 
 def read_arguments(
@@ -95,8 +151,8 @@ def read_arguments(
             known = ", ".join(f"--{each}=…" for each in names)
             raise ParameterError(f"the argument {word!r} is not known; there are {known}")
         values[name] = text
-    if "tick_hz" in values:
-        values["tick_hz"] = _number(values["tick_hz"])
+    for number in values.keys() & {"tick_hz", "cmd_timeout_s"}:
+        values[number] = _number(values[number])
     if values.get("groot2_port", "").isdecimal():
         values["groot2_port"] = int(values["groot2_port"])
     if SIM_TIME in values:
@@ -133,6 +189,7 @@ def declare_parameters(node: Any, defaults: Parameters, words: Sequence[str]) ->
         "tree": pathlib.Path(values["tree"]),
         "tick_hz": float(values["tick_hz"]),
         "groot2_port": int(values["groot2_port"]),
+        "cmd_timeout_s": float(values["cmd_timeout_s"]),
     }
     return dataclasses.replace(defaults, **values)
 
@@ -153,9 +210,10 @@ def _declared(node: Any, name: str, default: Any) -> Any:
 
 def _problems(values: Mapping[str, Any]) -> list[tuple[str, str]]:
     found = []
-    rate = values["tick_hz"]
-    if isinstance(rate, bool) or not isinstance(rate, int | float) or not 0 < rate < math.inf:
+    if not _is_number(values["tick_hz"]) or values["tick_hz"] <= 0:
         found.append(("tick_hz", "a number above 0"))
+    if not _is_number(values["cmd_timeout_s"]) or values["cmd_timeout_s"] < 0:
+        found.append(("cmd_timeout_s", "a number of seconds, or 0"))
     if not isinstance(values["tree"], str) or not values["tree"]:
         found.append(("tree", "the path of a file"))
     if "action_name" in values and (not isinstance(values["action_name"], str) or not values["action_name"]):
@@ -169,6 +227,10 @@ def _problems(values: Mapping[str, Any]) -> list[tuple[str, str]]:
         if name in values and values[name] not in choices:
             found.append((name, _listed(choices)))
     return found
+
+
+def _is_number(value: Any) -> bool:
+    return not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
 
 
 def _number(text: str) -> "float | str":

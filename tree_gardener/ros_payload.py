@@ -18,7 +18,7 @@ def blackboard_of(payload: str) -> Blackboard:
     The entry ``payload`` holds the text. If it is a JSON object, each of its members is an entry too.
 
     Raises:
-        PayloadError: the text begins like a JSON object and is none, or a member cannot be an entry.
+        PayloadError: the text is not JSON, or a member cannot be an entry.
     """
     board = Blackboard()
     for key, value in entries_of(payload).items():
@@ -28,20 +28,23 @@ def blackboard_of(payload: str) -> Blackboard:
 
 
 def entries_of(payload: str) -> dict[str, Any]:
-    """Returns the members of a JSON object; nothing for another text.
+    """Returns the members of a JSON object; nothing for another value of JSON, or for an empty text.
 
     Raises:
         PayloadError: as for `blackboard_of`.
     """
-    if not payload.lstrip().startswith("{"):
+    if not payload.strip():
         return {}
+    kind = "a JSON object" if payload.lstrip().startswith("{") else "JSON"
     try:
         values = json.loads(payload, parse_constant=_refuse)
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
-        raise PayloadError(f"the payload is not a JSON object: {error.msg} ({place})") from error
+        raise PayloadError(f"the payload is not {kind}: {error.msg} ({place})") from error
     except (RecursionError, ValueError) as error:
-        raise PayloadError(f"the payload is not a JSON object: {error}") from error
+        raise PayloadError(f"the payload is not {kind}: {error}") from error
+    if not isinstance(values, dict):
+        return {}
     for key, value in values.items():
         if not key or key[0] in "@_" or any(character.isspace() for character in key):
             raise PayloadError(

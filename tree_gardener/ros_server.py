@@ -12,11 +12,12 @@ from typing import Any, Final
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 
 from tree_gardener.blackboard import Blackboard
-from tree_gardener.errors import LoadError, TickError
+from tree_gardener.errors import LoadError, TickError, in_full
 from tree_gardener.ros import RosRunner
 from tree_gardener.ros_entities import OpenedSince
 from tree_gardener.ros_parameters import PREEMPT, REJECT
 from tree_gardener.ros_payload import PayloadError, blackboard_of
+from tree_gardener.ros_spinning import LAST_ZEROS
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 
@@ -120,10 +121,25 @@ class TreeServer:
                 self._end(self._waiting.popleft(), "abort", Status.IDLE, PREEMPTED)
             self._begin(self._waiting.popleft())
 
-    def stop(self) -> None:
-        """Halts the tree and aborts all goals; the executor sends their results."""
-        if self._running is not None:
-            self._stop(self._running, "abort", SHUT_DOWN)
+    def fail(self, error: BaseException) -> bool:
+        """Ends the tree that runs after an exception outside of a tick; returns whether one runs."""
+        goal = self._running
+        if goal is not None:
+            goal.runner.fail(error)
+        return goal is not None
+
+    def stop(self, await_answers: Callable[[], None]) -> None:
+        """Halts the tree and aborts all goals; the executor sends their results.
+
+        Args:
+            await_answers: waits for the servers whose goals the tree cancelled.
+        """
+        goal = self._running
+        if goal is not None:
+            goal.runner.stop()
+            await_answers()
+            self._node.commanded.stop(LAST_ZEROS)
+            self._stop(goal, "abort", SHUT_DOWN)
         while self._waiting:
             self._end(self._waiting.popleft(), "abort", Status.IDLE, SHUT_DOWN)
 
@@ -153,7 +169,7 @@ class TreeServer:
             problem = "; ".join(map(str, error.diagnostics))
         except TickError as error:  # the `setup` of an action
             problem = str(error)
-            self._log.error(f"{error}\n{error.traceback_text}")
+            self._log.error(in_full(error))
         except OSError as error:
             problem = f"{error.filename} cannot be read: {error.strerror}"
         else:
@@ -199,10 +215,8 @@ class TreeServer:
 
     def _close(self, goal: _Goal) -> None:
         self._running = None
-        try:
-            goal.runner.shutdown()
-        except TickError as error:
-            self._log.error(f"{error}\n{error.traceback_text}")
+        goal.runner.shutdown()
+        self._node.commanded.end()
         goal.opened.close()
 
     def _end(self, handle: Any, event: str, status: Status, message: str) -> None:

@@ -10,7 +10,8 @@ import time
 from collections.abc import Callable
 from typing import Final
 
-from tree_gardener.errors import TickError
+from tree_gardener import users_nodes
+from tree_gardener.errors import CallbackError, TickError
 from tree_gardener.status import RUNNING, Status
 from tree_gardener.tree import Tree
 
@@ -73,6 +74,7 @@ class Runner:
         on_error: ``stop`` ends the run when an action raises; ``failure`` makes that node fail.
         finished: called once with the root's last status when the run ends by itself.
         fault: called with each error.
+        halted: called each time the tree was halted, to stop what it moved.
         overrun: called after each tick that took longer than its period; only with it are actions measured.
         measure: returns a time in seconds that measures the duration of ticks; it does not determine when
             ticks are due.
@@ -87,6 +89,7 @@ class Runner:
         on_error: str = "stop",
         finished: OnFinish | None = None,
         fault: OnFault | None = None,
+        halted: Callable[[], None] | None = None,
         overrun: OnOverrun | None = None,
         measure: Callable[[], float] = time.perf_counter,
     ) -> None:
@@ -103,6 +106,7 @@ class Runner:
         self.statistics = RunStatistics()
         self._finished = finished
         self._fault = fault
+        self._halted = halted
         self._overrun = overrun
         self._measure = measure
         self._due_s: float | None = None
@@ -111,15 +115,13 @@ class Runner:
         self._wanted_period_s: float | None = None
         self._stop_wanted = False
         self._in_tick = False
-        tree.on_error = self._count_as_failure if on_error == "failure" else None
+        tree.on_error = self._tell if on_error == "failure" else None
         self._watch_leaves()
 
     @property
     def is_finished(self) -> bool:
         """Whether the run is over."""
         return self.state is RunnerState.FINISHED
-
-    # -- commands -----------------------------------------------------------------------------------
 
     def pause(self) -> None:
         """Pauses until `resume` or `step`."""
@@ -151,8 +153,6 @@ class Runner:
         self.tree = tree
         self._watch_leaves()
 
-    # -- driving ------------------------------------------------------------------------------------
-
     def tick_due(self, now_s: float) -> Status | None:
         """Ticks the tree once if a tick is due; returns the root's status, or None if there was no tick.
 
@@ -177,9 +177,19 @@ class Runner:
             return None
         return self._tick()
 
+    def fail(self, error: BaseException) -> None:
+        """Ends the run after an exception outside of a tick, such as that of a callback."""
+        located = CallbackError.of(error)
+        if self.is_finished:
+            self._tell(located)
+        else:
+            self._fail(located)
+
     def shutdown(self) -> None:
         """Ends the run and shuts the tree down."""
-        self.state = RunnerState.FINISHED
+        if not self.is_finished:
+            self.state = RunnerState.FINISHED
+            self._halt()
         self.tree.shutdown()
 
     def _tick(self) -> Status | None:
@@ -188,12 +198,16 @@ class Runner:
         try:
             status = self.tree.tick_exactly_once()
         except TickError as error:
+            users_nodes.end_broken(self.tree.nodes, error)
             self._fail(error)
             return None
         finally:
             self._in_tick = False
             self._account(self._measure() - start_s)
         self.status = status
+        if (fault := self.tree.fault) is not None:
+            self._fail(fault)
+            return None
         if status is not RUNNING and not self.repeats:
             self._end(status)
         self._settle()
@@ -264,8 +278,8 @@ class Runner:
 
     def _fail(self, error: TickError) -> None:
         self.error = error
-        if self._fault is not None:
-            self._fault(error)
+        self.tree.fault = None
+        self._tell(error)
         self.status = Status.FAILURE
         self._end(Status.FAILURE)
 
@@ -274,10 +288,12 @@ class Runner:
             self.tree.halt()
         except TickError as error:
             self.error = self.error or error
-            if self._fault is not None:
-                self._fault(error)
+            self._tell(error)
+            users_nodes.halt_one_by_one(self.tree.nodes)
+        if self._halted is not None:
+            self._halted()
 
-    def _count_as_failure(self, error: TickError) -> None:
+    def _tell(self, error: TickError) -> None:
         if self._fault is not None:
             self._fault(error)
 

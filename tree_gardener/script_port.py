@@ -4,7 +4,7 @@ import contextlib
 from collections.abc import Callable
 from typing import Any
 
-from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.errors import PortError, ScriptError, TickError, shown
 from tree_gardener.node import Node
 from tree_gardener.ports import pointer_key
 from tree_gardener.script import Environment
@@ -55,4 +55,4 @@ class ScriptPort:
 
     def fault(self, error: ScriptError | PortError) -> TickError:
         """Returns the error of the node for an error of its script."""
-        return TickError(self.node, f"in the script '{self.text}': {error}")
+        return TickError(self.node, f"in the script '{shown(self.text)}': {error}")

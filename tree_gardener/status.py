@@ -26,6 +26,11 @@ class Status(enum.Enum):
         return _LETTERS[self]
 
     @property
+    def number(self) -> int:
+        """The number of the status in BehaviorTree.CPP, by which scripts know it."""
+        return _NUMBERS[self]
+
+    @property
     def is_completed(self) -> bool:
         """Whether the status is SUCCESS or FAILURE."""
         return self is Status.SUCCESS or self is Status.FAILURE
@@ -38,6 +43,8 @@ FAILURE = Status.FAILURE
 SKIPPED = Status.SKIPPED
 
 _LETTERS = {IDLE: "I", RUNNING: "R", SUCCESS: "S", FAILURE: "F", SKIPPED: "K"}
+
+_NUMBERS = {status: number for number, status in enumerate(Status)}
 
 _TO_PY_TREES = {
     IDLE: PyTreesStatus.INVALID,

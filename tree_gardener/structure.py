@@ -4,28 +4,28 @@ All trees of the document are checked, whether they are used or not.
 """
 
 import dataclasses
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
-from tree_gardener.document import Document, Element
+from tree_gardener.conditions import CONDITIONS
+from tree_gardener.document import NAMED_BY_ID, Document, Element
 from tree_gardener.node import Kind
+from tree_gardener.ports import FORBIDDEN, IDENTITY
 from tree_gardener.registry import OLD_NAMES, NodeType
 from tree_gardener.spelling import nearest
 
 if TYPE_CHECKING:
     from tree_gardener.errors import Diagnostic
 
-EXPLICIT: Final = frozenset(("Action", "Condition", "Control", "Decorator"))
+EXPLICIT: Final = NAMED_BY_ID - {"SubTree"}
 MAX_DEPTH: Final = 256
-_FORBIDDEN = re.compile(r"""[\s/\\:*?|.<>&"']""")
-_RESERVED: Final = frozenset(("name", "ID"))  # names that begin with "_" are never ports
+_RESERVED: Final = IDENTITY | CONDITIONS | {"_autoremap"}
 _ASYNC_IN_REACTIVE: Final = "AsyncSequence"
 
 
 @dataclasses.dataclass(frozen=True)
 class SubTreeModel:
-    """The ports of a SubTree in the ``TreeNodesModel``; a port with the default None is mandatory."""
+    """The ports of a SubTree in the ``TreeNodesModel``; one whose default is None or empty is mandatory."""
 
     ports: Mapping[str, str | None]
 
@@ -37,6 +37,13 @@ class Definition:
     tree_id: str
     document: Document
     element: Element
+    subtrees: Sequence[Element] = ()
+    """Its nodes that call other trees."""
+
+    @property
+    def has_id(self) -> bool:
+        """Whether the document gives the tree an ID, which may be empty."""
+        return "ID" in self.element.attributes
 
     @property
     def body(self) -> Element:
@@ -51,7 +58,7 @@ def type_of(element: Element) -> str:
 
 def name_problem(name: str) -> str:
     """Returns the reason why an ID is invalid, or ""."""
-    match = _FORBIDDEN.search(name)
+    match = FORBIDDEN.search(name)
     if not name:
         return "is empty"
     if match is not None:
@@ -69,6 +76,11 @@ class StructureCheck:
         self.definitions: dict[str, Definition] = {}
         self.models: dict[str, SubTreeModel] = {}
         self.tree = ""
+        self.subtrees: list[Element] = []
+        self.plain = {
+            name for name, kind in registry.items() if kind.max_children == 0 and name not in NAMED_BY_ID
+        }
+        """The tags of leaves, of which there is nothing to check if they have no children and no ID."""
 
     def report(self, element: Element, code: str, message: str, hint: str = "", attribute: str = "") -> None:
         """Adds a problem."""
@@ -79,7 +91,7 @@ class StructureCheck:
     def run(self) -> None:
         """Checks the document."""
         root = self.document.root
-        if root.tag not in ("root", "Root"):
+        if root.tag != "root":
             self.report(
                 root, "TG201", f"the document element is <{root.tag}>, not <root>", "rename it to <root>"
             )
@@ -98,7 +110,7 @@ class StructureCheck:
         """Checks a BehaviorTree."""
         tree_id = element.attributes.get("ID")
         self.tree = tree_id or ""
-        if tree_id is None:
+        if not tree_id:
             if not is_alone:
                 self.report(element, "TG203", "a <BehaviorTree> has no ID", 'name it: <BehaviorTree ID="…">')
         elif problem := name_problem(tree_id):
@@ -113,24 +125,33 @@ class StructureCheck:
                 f"the tree '{self.tree}' has {len(element.children)} nodes at its root and needs exactly 1"
             )
             self.report(element, "TG205", message, "put them under one control node, such as a Sequence")
+        self.subtrees = []
         for child in element.children:
             self.check_nodes(child)
         if element.children:
-            self.definitions[self.tree] = Definition(self.tree, self.document, element)
+            self.definitions[self.tree] = Definition(self.tree, self.document, element, self.subtrees)
         self.tree = ""
 
     def check_nodes(self, top: Element) -> None:
         """Checks a node and all below it."""
-        stack = [(top, 1)]
+        plain = self.plain
+        stack = [(iter((top,)), 1)]
         while stack:
-            element, depth = stack.pop()
-            if depth > MAX_DEPTH:
-                hint = "move a part into a tree of its own and use a SubTree"
-                self.report(element, "TG206", f"nodes are nested more than {MAX_DEPTH} deep", hint)
-                continue
-            self.check_node(element)
-            if element.children:
-                stack.extend([(child, depth + 1) for child in reversed(element.children)])
+            elements, depth = stack[-1]
+            for element in elements:
+                if depth > MAX_DEPTH:
+                    hint = "move a part into its own tree and use a SubTree"
+                    self.report(element, "TG206", f"nodes are nested more than {MAX_DEPTH} deep", hint)
+                    continue
+                children = element.children
+                if not children and element.tag in plain and "ID" not in element.attributes:
+                    continue
+                self.check_node(element)
+                if children:
+                    stack.append((iter(children), depth + 1))
+                    break
+            else:
+                stack.pop()
 
     def check_node(self, element: Element) -> None:
         """Checks one node."""
@@ -148,6 +169,8 @@ class StructureCheck:
             if "ID" in element.attributes:
                 hint = f'leave it out, or use an explicit form such as <Action ID="{tag}">'
                 self.report(element, "TG208", f"<{tag}> must not have an ID", hint, "ID")
+        if name == "SubTree":
+            self.subtrees.append(element)
         kind = self.registry.get(name)
         if kind is None:
             self.report(element, "TG209", f"there is no node '{name}'", self.suggest(name))
@@ -167,6 +190,8 @@ class StructureCheck:
     def check_count(self, element: Element, name: str, kind: NodeType) -> None:
         """Checks the number of children; Switch, IfThenElse and others check theirs when they are ticked."""
         count = len(element.children)
+        if not count and kind.max_children == 0:
+            return
         if kind.kind is Kind.CONTROL:
             least = kind.min_children if kind.is_own else 2 if name == "TryCatch" else 1
             most = kind.max_children if kind.is_own else None
@@ -191,6 +216,7 @@ class StructureCheck:
         if tree_id is None:
             self.report(element, "TG213", "a <SubTree> has no ID", 'say which tree: <SubTree ID="…"/>')
             return
+        self.subtrees.append(element)
         if tree_id in self.registry:
             hint = "rename the tree" if tree_id in self.definitions else f"write <{tree_id}> instead"
             self.report(element, "TG214", f"the SubTree's ID '{tree_id}' is the name of a node", hint, "ID")
@@ -234,8 +260,9 @@ class StructureCheck:
             name = port.attributes.get("name", "")
             if not name:
                 self.report(port, "TG218", f"an <{port.tag}> has no name", 'write name="…"')
-            elif name[0].isdigit() or name in _RESERVED or _FORBIDDEN.search(name):
+            elif name[0] in "0123456789" or name in _RESERVED or FORBIDDEN.search(name):
+                reason = "is reserved" if name in _RESERVED else "cannot be used"
                 hint = "begin with a letter; use letters, digits and '_'"
-                self.report(port, "TG219", f"a port cannot be named '{name}'", hint, "name")
+                self.report(port, "TG219", f"the name '{name}' of a port {reason}", hint, "name")
             else:
                 yield port

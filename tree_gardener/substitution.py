@@ -5,8 +5,9 @@ name, type or path (``*`` and ``?`` are wildcards) to the name of a config or of
 """
 
 import dataclasses
-import fnmatch
+import functools
 import json
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -28,7 +29,14 @@ class Rule:
 
     def matches(self, name: str, kind: str, path: str) -> bool:
         """Returns whether the rule replaces a node."""
-        return self.pattern in (name, kind) or fnmatch.fnmatchcase(path, self.pattern)
+        return self.pattern in (name, kind) or _wildcards(self.pattern).fullmatch(path) is not None
+
+
+@functools.lru_cache
+def _wildcards(pattern: str) -> re.Pattern[str]:
+    """Returns the regular expression of a pattern; all but ``*`` and ``?`` is plain."""
+    parts = {"*": ".*", "?": "."}
+    return re.compile("".join(parts.get(sign) or re.escape(sign) for sign in pattern), re.DOTALL)
 
 
 def parse_rules(rules: Mapping[str, Any] | str) -> tuple[Rule, ...]:

@@ -8,9 +8,9 @@ from contextlib import AbstractContextManager
 from typing import Any, TypeVar
 
 from tree_gardener import tree_tools, users_nodes
-from tree_gardener.actions import load_actions
-from tree_gardener.blackboard import Blackboard, Entry
+from tree_gardener.blackboard import Blackboard, Entry, board_at
 from tree_gardener.clock import Clock, SystemClock, Timers
+from tree_gardener.collector import paused_collector
 from tree_gardener.debugging.agent import Agent
 from tree_gardener.deep import call_deep
 from tree_gardener.enums import Enums, constants, types
@@ -22,6 +22,7 @@ from tree_gardener.loader import Builder
 from tree_gardener.node import Execute, Node
 from tree_gardener.observe import Observer, Recorder
 from tree_gardener.profiling import Profile
+from tree_gardener.py_trees_board import Place, Value
 from tree_gardener.registry import build_registry
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 from tree_gardener.substitution import parse_rules
@@ -42,10 +43,12 @@ class Tree:
         blackboard: the root blackboard.
         boards: all scopes of the blackboard.
         clock: the time for Delay, Timeout and Sleep.
+        numbers: the numbers in BehaviorTree.CPP of the nodes whose uid is another one.
         enums: constants for scripts and Switch, by name.
         wake_up: set by nodes that need another tick soon.
         on_error: called with the error when an action raises, which then counts as FAILURE of its node; if
             None, the error is raised out of the tick.
+        fault: an error of a callback that ends the run, until the runner has seen it; else None.
         on_warning: called with a node and a sentence if a mistake is tolerated, once for each node and
             sentence; if None, the sentence goes to the logger ``tree_gardener``.
         warned: the uids and sentences of which the user was warned.
@@ -62,9 +65,11 @@ class Tree:
         self.enums = dict(enums)
         self.nodes: list[Node] = []
         self.boards: list[Blackboard] = [self.blackboard]
+        self.numbers: dict[int, int] = {}
         self.depth = 0
         self.wake_up = False
         self.on_error: Callable[[TickError], None] | None = None
+        self.fault: TickError | None = None
         self.on_warning: Callable[[Node, str], None] | None = None
         self.warned: set[tuple[int, str]] = set()
         self.tick_number = 0
@@ -77,9 +82,8 @@ class Tree:
         self._ways = Ways(self, self._hooks, self._recorder)
         self._signal = threading.Event()
 
-    # -- making -------------------------------------------------------------------------------------
-
     @classmethod
+    @paused_collector()
     def from_xml(  # noqa: PLR0913 - most are rare
         cls,
         text: str | bytes,
@@ -113,25 +117,19 @@ class Tree:
             LoadError: the document is refused; `diagnostics` holds every error.
         """
         forest = Forest()
-        base = pathlib.Path(base_path) if base_path is not None else None
-        for index, document in enumerate(documents):
-            forest.read(document, f"document {index + 1}", base)
-        forest.read(text, name, base)
-        given = dict(nodes or {})
-        missing = {action: source for action, source in forest.sources.items() if action not in given}
-        if missing:
-            given.update(load_actions({**forest.modules, **missing}, only=missing))
+        forest.read_all(documents, text, name, base_path)
         named = {**forest.enums, **(enums or {})}
-        registry = build_registry(given, types(named))
+        registry = build_registry(forest.with_actions(nodes or {}), types(named))
         problems = forest.check(registry)
         if problems:
             raise LoadError(problems)
         main = forest.main_tree(main_tree)
-        problems = forest.check_cycles(main)
+        rules = parse_rules(substitutions or {})
+        problems = [] if rules else forest.check_cycles(main)  # rules may replace SubTrees
         if problems:
             raise LoadError(problems)
         tree = cls(clock, blackboard, constants(named))
-        builder = Builder(tree, forest, registry, parse_rules(substitutions or {}))
+        builder = Builder(tree, forest, registry, rules)
         tree.nodes = builder.build(main)
         if builder.problems:
             raise LoadError(builder.problems)
@@ -146,10 +144,7 @@ class Tree:
         clock: Clock | None = None,
         **more: Any,
     ) -> "Tree":
-        """Builds a tree from a file; ``<include>`` is relative to it.
-
-        Other arguments are those of `from_xml`.
-        """
+        """Builds a tree from a file, to which ``<include>`` is relative; as `from_xml` otherwise."""
         path = pathlib.Path(path)
         more.setdefault("base_path", path.parent)
         more.setdefault("name", str(path))
@@ -158,18 +153,12 @@ class Tree:
     def _adopt(self, builder: Builder) -> None:
         """Installs the nodes that a builder made."""
         self.boards = builder.boards
-        self.blackboard.scopes = self._scope
-        self.depth = max(builder.depths)
+        self.blackboard.scopes = lambda path: board_at(self.boards, path)
+        self.depth = builder.depth
         for node in self.nodes:
             node.prepare()
         self.link()
         tree_tools.use_blackboard(self.blackboard)
-
-    def _scope(self, path: str) -> Blackboard:
-        for board in self.boards:
-            if board.path == path:
-                return board
-        raise KeyError(path)
 
     @property
     def root(self) -> Any:
@@ -195,8 +184,6 @@ class Tree:
     def use_clock(self, clock: Clock) -> None:
         """Replaces the clock before the first tick, for example by one that needs an rclpy node."""
         self.clock = self.timers.clock = clock
-
-    # -- life ---------------------------------------------------------------------------------------
 
     def setup(self, node: Any = None, **kwargs: Any) -> None:
         """Calls ``setup(node=…)`` of each action and own control node once, in pre-order.
@@ -239,8 +226,6 @@ class Tree:
         first = first or failed
         if first is not None:
             raise first
-
-    # -- ticking ------------------------------------------------------------------------------------
 
     def tick_exactly_once(self) -> Status:
         """Ticks the root once.
@@ -367,14 +352,16 @@ class Tree:
         else:
             _log.warning("node '%s': %s", node.path, message)
 
-    # -- observation and hooks ----------------------------------------------------------------------
-
     def journal_writes(self, callback: Callable[[Entry, int], None] | None) -> None:
         """Calls `callback` with each write to the blackboard, in order, while the tree is observed.
 
         A removed entry is not in its scope any more. None ends it.
         """
         self._recorder.writes = callback
+
+    def outside_entries(self) -> Mapping[Place, Value]:
+        """Returns what py_trees keeps beside the blackboard, while the tree is observed."""
+        return self._recorder.outside.entries()
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
         """Calls `callback` after each tick with the changes; returns the function that unsubscribes it.
@@ -476,6 +463,10 @@ class Tree:
         """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""
         return self._hooks.entry(node, inner)
 
+    def entries_of(self, nodes: Sequence[Node]) -> list[Execute]:
+        """Returns the functions that tick nodes together with their hooks."""
+        return self._hooks.entries(nodes)
+
     def link(self) -> None:
         """Looks up again how each node is ticked, after hooks or observers changed."""
         self._ways.link()
@@ -483,6 +474,10 @@ class Tree:
     def linked_once(self) -> AbstractContextManager[None]:
         """Returns a context, between two ticks, at whose end `link` takes effect once."""
         return self._ways.linked_once()
+
+    def forget_code(self, node: Node) -> None:
+        """Drops generated code in which a node's functions are, after one of them was replaced."""
+        self._ways.forget_code(node)
 
     def link_around(self, uid: int | None) -> None:
         """Looks up again how one node is ticked, or all (None), after a hook came or went."""

@@ -26,7 +26,8 @@ INT64: Final = (-(2**63), 2**63 - 1)
 _INTEGER = re.compile(r"-?[0-9]+")
 _UNSIGNED = re.compile(r"[0-9]+")
 _REAL = re.compile(
-    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE | re.ASCII
+    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan(?:\(\w*\))?)",
+    re.IGNORECASE | re.ASCII,
 )
 _TRUE = frozenset(("1", "true", "TRUE", "True"))
 _FALSE = frozenset(("0", "false", "FALSE", "False"))
@@ -77,8 +78,8 @@ def format_number(value: float) -> str:
 
 def to_text(value: Any) -> str:
     """Returns a value in the form in which a string port reads it."""
-    if isinstance(value, str):
-        return value
+    if issubclass(type(value), str):
+        return value  # type: ignore[no-any-return]
     number = as_number(value)
     if number is not None:
         return format_number(number)
@@ -90,13 +91,14 @@ def to_text(value: Any) -> str:
 
 def as_number(value: Any) -> int | float | None:
     """Returns the value as an int (booleans too) or a float; None if it is not a number."""
-    if isinstance(value, bool):
+    kind = type(value)  # not `isinstance`: it asks `__class__`, which may be the user's code
+    if kind is bool:
         return int(value)
-    if isinstance(value, (int, float)):
-        return value
-    if isinstance(value, numbers.Integral):
+    if issubclass(kind, (int, float)):
+        return value  # type: ignore[no-any-return]
+    if issubclass(kind, numbers.Integral):
         return int(value)
-    if isinstance(value, numbers.Real):
+    if issubclass(kind, numbers.Real):
         return float(value)
     return None
 
@@ -139,9 +141,26 @@ def parse_double(text: str) -> float:
     return checked_double(match.group())
 
 
+def typed_constant(text: str) -> tuple[Any, ValueType | None]:
+    """Returns the value of a constant for a SubTree, with its type; None for a text, whose entry has none.
+
+    A number that neither an integer nor a double can hold is a text.
+    """
+    if _INTEGER.fullmatch(text):
+        number = int(text)
+        if INT64[0] <= number <= INT64[1]:
+            return number, INT if INT32[0] <= number <= INT32[1] else INT_64
+    if _REAL.fullmatch(text):
+        try:
+            return checked_double(text), DOUBLE
+        except ConversionError:
+            return text, None
+    return text, None
+
+
 def checked_double(text: str) -> float:
     """Converts a real number; refuses one that no double can hold, as ``from_chars`` does."""
-    number = float(text)
+    number = float(text.partition("(")[0])
     if math.isinf(number) and text[-1].isdigit():
         raise ConversionError(f"{text} is too large: a double ends at {sys.float_info.max:.3g}")
     if number == 0.0 and re.search("[1-9]", text.lower().partition("e")[0]):
@@ -194,10 +213,19 @@ def parse_status(text: str) -> Status:
         ) from None
 
 
-def _convert_status(value: Any) -> Status:
+_BY_NUMBER: Final = tuple(sorted(Status, key=lambda status: status.number))
+
+
+def status_of(value: Any) -> Status:
+    """Returns a status that is given as such, by its name, or by its number."""
     if isinstance(value, Status):
         return value
-    return parse_status(to_text(value))
+    number = as_number(value)
+    if number is None:
+        return parse_status(to_text(value))
+    if number not in range(len(_BY_NUMBER)):
+        raise ConversionError(f"{format_number(number)} is no status: they have the numbers 0 to 4")
+    return _BY_NUMBER[int(number)]
 
 
 def _same(value: Any) -> Any:
@@ -210,7 +238,7 @@ UINT: Final = _integer(UINT32, "uint")
 DOUBLE: Final = ValueType("double", parse_double, _convert_double)
 STRING: Final = ValueType("string", _same, to_text)
 BOOL: Final = ValueType("bool", parse_bool, _convert_bool)
-STATUS: Final = ValueType("status", parse_status, _convert_status)
+STATUS: Final = ValueType("status", parse_status, status_of)
 ANY: Final = ValueType("any", _same, _same, is_strong=False)
 POLYMORPHIC: Final = ValueType("any", _same, _same, is_strong=False)
 """The type of a port that gives an entry the type of the first value, as `AnyTypeAllowed` asks for."""
@@ -225,6 +253,11 @@ class AnyTypeAllowed:
     """
 
 
+def split_list(text: str) -> list[str]:
+    """Returns the parts of a list; a separator at its end adds none."""
+    return text.removesuffix(";").split(";") if text else []
+
+
 @functools.cache
 def _list_of(item: ValueType) -> ValueType:
     def parse(text: str) -> list[Any]:
@@ -236,7 +269,7 @@ def _list_of(item: ValueType) -> ValueType:
             if not isinstance(values, list):
                 raise ConversionError(f"'{text}' is not a list")
             return [(item.from_json or item.convert)(value) for value in values]
-        return [item.parse(part) for part in text.split(";")] if text else []
+        return [item.parse(part) for part in split_list(text)]
 
     def convert(value: Any) -> Any:
         if isinstance(value, str):
@@ -355,7 +388,8 @@ def type_of_value(value: Any) -> ValueType:
     if value is None:
         return ANY
     if isinstance(value, list):
-        item = type_of_value(value[0]) if value else ANY
+        # Lists of lists have no type; one may hold itself.
+        item = ANY if not value or isinstance(value[0], list) else type_of_value(value[0])
         return BY_NAME.get(f"list[{item.name}]", ANY)
     number = None if isinstance(value, enum.Enum) else as_number(value)
     if isinstance(value, bool) or number is None:
@@ -367,12 +401,13 @@ def type_of_value(value: Any) -> ValueType:
 
 def type_name_of(value: Any) -> str:
     """Returns the type of a value for messages: ``int``, ``double``, ``string``, ``bool``, or its class."""
-    if isinstance(value, bool):
+    kind = type(value)
+    if kind is bool:
         return "bool"
-    if isinstance(value, int):
+    if issubclass(kind, int):
         return "int"
-    if isinstance(value, float):
+    if issubclass(kind, float):
         return "double"
-    if isinstance(value, str):
+    if issubclass(kind, str):
         return "string"
-    return type(value).__qualname__
+    return kind.__qualname__

@@ -12,7 +12,7 @@ from tree_gardener.observe import Recorder
 
 if TYPE_CHECKING:
     from tree_gardener.debugging.agent import Agent
-    from tree_gardener.node import Execute
+    from tree_gardener.node import Execute, Node
     from tree_gardener.tree import Tree
 
 
@@ -104,6 +104,11 @@ class Ways:
             self.tick_root = node.entry()
         else:
             node.parent.link()
+        self.generation.drop(node)
+        self.choose()
+
+    def forget_code(self, node: "Node") -> None:
+        """Removes the code in which a node is inlined, after one of its functions was replaced."""
         self.generation.drop(node)
         self.choose()
 

@@ -7,14 +7,15 @@ import itertools
 import time
 from typing import TYPE_CHECKING, Any
 
+from tests.deadline import DEADLINE_S
+from tests.domains import own_domain_id
 from tests.tree_gardener.trees import document
 from tree_gardener import ManualClock, Status, Tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-DOMAIN_ID = 223
-DEADLINE_S = 20.0
+DOMAIN_ID = own_domain_id()
 _numbers = itertools.count()
 
 

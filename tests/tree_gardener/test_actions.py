@@ -33,10 +33,13 @@ def test_a_self_contained_document_needs_nothing_else() -> None:
     assert Tree.from_xml(text).tick_once() is Status.SUCCESS
 
 
-def test_the_older_form_is_indented_and_its_root_has_another_name() -> None:
+def test_the_older_form_is_indented_and_the_name_of_its_root_is_refused() -> None:
     source = "".join(f"      {line}\n" for line in GO.splitlines()).replace("<", "&lt;")
-    text = f'<Root name="Tree Root"><BehaviorTree><Go/></BehaviorTree><Code><Go>\n{source}</Go></Code></Root>'
+    text = f'<root name="Tree Root"><BehaviorTree><Go/></BehaviorTree><Code><Go>\n{source}</Go></Code></root>'
     assert Tree.from_xml(text).tick_once() is Status.SUCCESS
+    with pytest.raises(LoadError) as refused:
+        Tree.from_xml(text.replace("<root", "<Root").replace("</root", "</Root"))
+    assert [problem.code for problem in refused.value.diagnostics] == ["TG201"]
 
 
 def test_classes_that_are_given_go_before_the_documents() -> None:

@@ -57,6 +57,40 @@ def test_containers_are_copied_and_other_objects_are_shared() -> None:
     assert tree.blackboard["path"] == [[1], {"a": {2}}]
 
 
+def nested(levels: int) -> list[Any]:
+    value: list[Any] = []
+    for _ in range(levels - 1):
+        value = [value]
+    return value
+
+
+def test_a_value_that_holds_itself_is_refused_with_its_entry() -> None:
+    ring: list[Any] = []
+    ring.append(ring)
+    own: dict[str, Any] = {}
+    own["all"] = (own, own)
+    for value in (ring, own, nested(101), nested(100_000)):
+        tree = Tree.from_xml(TEXT)
+        tree.blackboard.set("kept", value)
+        with pytest.raises(ValueError, match="the entry 'kept' is nested too deeply"):
+            backup(tree)
+    tree.blackboard.set("kept", nested(100))
+    restore(tree, backup(tree))
+    assert tree.blackboard["kept"] == nested(100)
+
+
+def test_what_is_shared_within_an_entry_is_copied_once() -> None:
+    value: list[Any] = [1]
+    for _ in range(60):
+        value = [value, value]
+    tree = Tree.from_xml(TEXT)
+    tree.blackboard.set("kept", value)
+    restore(tree, backup(tree))
+    found = tree.blackboard["kept"]
+    assert found is not value
+    assert found[0] is found[1]
+
+
 def test_the_tree_runs_on_after_it() -> None:
     tree = Tree.from_xml(TEXT)
     before = backup(tree)

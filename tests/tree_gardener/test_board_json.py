@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
 import pytest
 
+from tests.fakes.hostile_values import VALUES
 from tests.tree_gardener.test_type_fixtures import FIXTURES, Point, shown
 from tests.tree_gardener.trees import document
 from tree_gardener import (
@@ -21,7 +23,7 @@ from tree_gardener import (
 )
 from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.board_json import value_to_json
-from tree_gardener.values import INT, type_name_of
+from tree_gardener.values import ANY, INT, type_name_of, type_of_value
 
 TYPES = {"int": "int", "double": "double", "bool": "bool", "std::string": "string", "decltype(nullptr)": None}
 TOO_LARGE = 2**40
@@ -95,6 +97,10 @@ def test_what_was_exported_reads_back() -> None:
 def test_what_has_no_form_in_json_is_null() -> None:
     values = [math.nan, math.inf, Status.SUCCESS, SharedQueue([1]), {"a": 1}, [1, Unknown()], [[1], [2]]]
     assert [value_to_json(value) for value in values] == [None] * 7
+    ring: list[Any] = []
+    ring.append(ring)
+    assert value_to_json(ring) is None
+    assert type_of_value(ring) is ANY
 
 
 def test_an_import_is_seen_by_observers() -> None:
@@ -119,3 +125,10 @@ def test_a_tree_has_its_scopes_by_name() -> None:
     assert (tree.blackboard["a"], tree.boards[1]["d"], tree.boards[1]["shared"]) == (3, 1, 3)
     with pytest.raises(PortError, match="the document has the scopes none, and the tree has"):
         tree_from_json({}, tree)
+
+
+def test_any_value_has_a_form_or_none() -> None:
+    for value in VALUES:
+        json.dumps([value_to_json(value), value_to_json([value]), value_to_json((1, value))])
+    assert value_to_json(2**64) is None
+    assert value_to_json([2**64 - 1, -(2**63), True]) == [2**64 - 1, -(2**63), True]

@@ -185,22 +185,26 @@ def test_a_timer_of_the_trees_clock_may_halt_a_child_and_not_tick_one() -> None:
     assert tree.timers.next_s() is None
 
 
-def test_a_halt_override_comes_first_and_children_are_halted_even_if_it_raises() -> None:
+def test_a_halt_override_comes_first_and_what_it_raises_is_reported_and_stops_nothing() -> None:
     class Own(ControlNode):
         def update(self) -> Status:
             return self.tick_child(0)
 
         def halt(self) -> None:
-            self.seen = self.child_status(0)
+            self.seen = (*getattr(self, "seen", ()), self.child_status(0))
             raise ValueError("cannot stop")
 
     tree = load('<Own name="own"><A name="a"/></Own>', nodes={"Own": Own, "A": recording(R)})
+    said: list[str] = []
+    tree.on_warning = lambda node, text: said.append(f"{node.path}: {text}")
     tree.tick_exactly_once()
-    with pytest.raises(TickError, match="ValueError: cannot stop") as raised:
-        tree.halt()
-    assert own(tree).seen is R
+    tree.halt()
+    assert own(tree).seen == (R, Status.IDLE), "haltTree halts every node once more"
     assert letters(tree) == "II"
-    assert raised.value.path == "own"
+    [text] = said
+    line = Own.halt.__code__.co_firstlineno + 2
+    assert text.startswith("own: halt() raised ValueError: cannot stop at ")
+    assert text.endswith(f"test_control_node.py:{line}")
     assert tree.nodes[1].behaviour.calls[-1] == "terminate INVALID from RUNNING"
 
 

@@ -61,3 +61,15 @@ def test_of_two_documents_the_last_one_is_the_main_one() -> None:
     assert forest.main is not None
     assert forest.main.name == "b.xml"
     assert [document.name for document in forest.documents] == ["a.xml", "b.xml"]
+
+
+def test_a_document_of_one_include_runs_the_tree_that_it_includes(tmp_path: Path) -> None:
+    (tmp_path / "one.xml").write_text(f"<root>{subtree('One', '<Succeeding/>')}</root>")
+    (tmp_path / "main.xml").write_text("<root><include path='one.xml'/></root>")
+    assert Tree.from_file(tmp_path / "main.xml", LEAVES).nodes[0].tree_id == "One"
+    (tmp_path / "one.xml").write_text(
+        f"<root>{subtree('One', '<Succeeding/>')}{subtree('Two', '<Succeeding/>')}</root>"
+    )
+    with pytest.raises(LoadError) as refused:
+        Tree.from_file(tmp_path / "main.xml", LEAVES)
+    assert refused.value.diagnostics[0].code == "TG221"

@@ -86,7 +86,7 @@ def test_a_hook_of_one_node_applies_to_that_alone() -> None:
 
 
 def test_results_are_counted_as_hooks_see_them() -> None:
-    for seed in range(31_000, 31_000 + SEEDS):
+    for seed in range(1, 1 + SEEDS):
         case = generate(seed)
         counted, hooked = tree_of(case), tree_of(case)
         counts = counted.count_results()

@@ -35,7 +35,7 @@ def problems(body: str, *more: str) -> list[tuple[str, int, int]]:
     [
         ('<Drive goal="a" sped="1"/>', [("TG301", 2, 23)]),
         ("<Drive/>", [("TG302", 2, 1)]),
-        ('<Drive goal="{a"/>', [("TG303", 2, 14)]),
+        ('<Drive goal="a" speed="{a"/>', [("TG303", 2, 24)]),
         ('<Drive goal="a" seen="there"/>', [("TG304", 2, 23)]),
         ('<Drive goal="a" speed="fast"/>', [("TG305", 2, 24)]),
         (

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.domains import own_domain_id
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.programs import Peer, program
@@ -24,7 +25,7 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),
 ]
 
-DOMAIN_ID = 202
+DOMAIN_ID = own_domain_id()
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE, UNCONFIGURED_SHUTDOWN, ACTIVE_SHUTDOWN = 1, 2, 3, 4, 5, 7
 UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED = 1, 2, 3, 4
 TREE = """
@@ -32,6 +33,7 @@ TREE = """
 """
 MARK = """
 import pathlib
+import time
 
 import py_trees
 
@@ -55,6 +57,10 @@ class Mark(py_trees.behaviour.Behaviour):
         return py_trees.common.Status.SUCCESS if done else py_trees.common.Status.RUNNING
 
     def terminate(self, status):
+        if pathlib.Path("slow").exists():
+            pathlib.Path("slow").unlink()
+            note("halting")
+            time.sleep(0.5)  # requests come meanwhile
         note(status.name)
 
     def shutdown(self):
@@ -65,25 +71,41 @@ class Mark(py_trees.behaviour.Behaviour):
 class Manager:
     """Asks for transitions, as `ros2 lifecycle` does."""
 
-    def __init__(self, peer: Peer, folder: Path) -> None:
+    def __init__(self, peer: Peer, folder: Path, name: str = "managed") -> None:
         from lifecycle_msgs.srv import ChangeState, GetState
 
         self.peer, self.folder = peer, folder
-        self._change = peer.node.create_client(ChangeState, "/managed/change_state")
-        self._state = peer.node.create_client(GetState, "/managed/get_state")
+        self._change = peer.node.create_client(ChangeState, f"/{name}/change_state")
+        self._state = peer.node.create_client(GetState, f"/{name}/get_state")
         self._kinds = ChangeState, GetState
         peer.until(lambda: self._change.service_is_ready() and self._state.service_is_ready())
+        # A service is ready for the client before its server knows where to answer, so answers may be lost.
+        peer.insist(self.ask_state)
+        peer.insist(lambda: self.ask(0, label="no transition"))
+
+    def ask(self, transition: int, label: str = "") -> Any:
+        """Asks for a transition by its number, or by its label where it has one; returns the future."""
+        request = self._kinds[0].Request()
+        request.transition.id, request.transition.label = transition, label
+        return self._change.call_async(request)
+
+    def ask_state(self) -> Any:
+        """Asks for the state; returns the future."""
+        return self._state.call_async(self._kinds[1].Request())
 
     def change(self, transition: int) -> bool:
         """Asks for a transition; returns whether it succeeded."""
-        request = self._kinds[0].Request()
-        request.transition.id = transition
-        return bool(self.peer.answer(self._change.call_async(request)).success)
+        return bool(self.peer.answer(self.ask(transition)).success)
+
+    def begin(self) -> None:
+        """Configures and activates the node."""
+        assert self.change(CONFIGURE)
+        assert self.state() == INACTIVE
+        assert self.change(ACTIVATE)
 
     def state(self) -> int:
         """Returns the state."""
-        answer = self.peer.answer(self._state.call_async(self._kinds[1].Request()))
-        return int(answer.current_state.id)
+        return int(self.peer.answer(self.ask_state()).current_state.id)
 
     def marks(self) -> list[str]:
         file = self.folder / "marks"
@@ -194,6 +216,42 @@ def test_what_cannot_be_loaded_stays_unconfigured(manage: Any) -> None:
     assert manager.change(CONFIGURE)
     assert manager.change(CLEANUP)
     assert manager.change(UNCONFIGURED_SHUTDOWN)
+
+
+@pytest.mark.parametrize(
+    ("before", "refused"),
+    [
+        ([], [ACTIVATE, DEACTIVATE, CLEANUP, ACTIVE_SHUTDOWN, 99]),
+        ([CONFIGURE], [CONFIGURE, DEACTIVATE, UNCONFIGURED_SHUTDOWN]),
+        ([CONFIGURE, ACTIVATE], [ACTIVATE, CONFIGURE, CLEANUP]),
+        ([UNCONFIGURED_SHUTDOWN], [CONFIGURE, ACTIVATE, CLEANUP, UNCONFIGURED_SHUTDOWN]),
+    ],
+    ids=["unconfigured", "inactive", "active", "finalized"],
+)
+def test_a_request_that_does_not_fit_the_state_is_refused_and_the_node_lives(
+    manage: Any, before: list[int], refused: list[int]
+) -> None:
+    manager = manage()
+    assert all(map(manager.change, before))
+    state = manager.state()
+    for transition in refused:
+        assert not manager.change(transition)
+        assert manager.state() == state
+    said = (manager.folder / "said").read_text()
+    assert said.count("is refused: the node is ") == len(refused)
+    assert "Traceback" not in said
+
+
+def test_a_request_that_comes_while_the_tree_is_halted_waits_for_that(manage: Any) -> None:
+    manager = manage()
+    (manager.folder / "slow").touch()
+    assert manager.change(CONFIGURE)
+    assert manager.change(ACTIVATE)
+    manager.wait_for("begin")
+    asked = [manager.ask(transition) for transition in (DEACTIVATE, DEACTIVATE, ACTIVATE)]
+    assert [bool(manager.peer.answer(each).success) for each in asked] == [True, False, True]
+    manager.peer.until(lambda: manager.marks().count("begin") == 2)
+    assert manager.marks()[1:4] == ["begin", "halting", "INVALID"]
 
 
 def test_a_node_without_a_tree_refuses_to_be_configured(peer: Peer) -> None:

@@ -18,7 +18,7 @@ from tests.tree_gardener.debugging.hooked import free_port, hook_of
 from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import Status
 from tree_gardener.debugging import Force
-from tree_gardener.ros_main import run_tree
+from tree_gardener.ros_main import manage_tree, run_tree, serve_trees
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -76,6 +76,27 @@ def run(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Any:
 
 def under(header: str, **values: str) -> str:
     return f"{header}:\n  ros__parameters:\n" + "".join(f"    {k}: {v}\n" for k, v in values.items())
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        (run_tree, ["--tick_hz=…", "(default: 5.0)", "--on_finish=…", "until it ends"]),
+        (serve_trees, ["--on_new_goal=…", "'preempt'", "by name, as the server"]),
+        (manage_tree, ["--on_error=…", "as a lifecycle node"]),
+    ],
+)
+@pytest.mark.parametrize("word", ["--help", "-h"])
+def test_help_is_printed_and_nothing_runs(
+    program: Any, said: list[str], word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [word, "--ros-args", "-p", "tick_hz:=1.0"]
+    assert program("missing.xml", node_name="patrol", tick_hz=5.0, args=words) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("patrol: ")
+    assert err == ""
+    for text in (*said, "--tree=…", "missing.xml", "--use_sim_time=…", "--ros-args"):
+        assert text in out
 
 
 def test_what_is_not_given_is_what_the_package_says(run: Any) -> None:
@@ -141,6 +162,12 @@ def test_an_argument_goes_before_the_file_whatever_its_sections_and_types(run: A
         ),
         (under("/**", gain="1.0"), ["--groot2_port=70000"], "groot2_port is 70000, but has to be a port"),
         (under("/**", groot2_port="high"), [], "groot2_port is 'high', but has to be a port"),
+        (
+            under("/**", cmd_timeout_s="-1"),
+            [],
+            "cmd_timeout_s is -1, but has to be a number of seconds, or 0",
+        ),
+        (under("/**", cmd_timeout_s="soon"), [], "cmd_timeout_s is 'soon', but has to be a number"),
         (under("/**", groot2_host="7"), [], "groot2_host is 7, but has to be an address"),
         (under("/**", tick_hz="true"), [], "tick_hz is true, but has to be a number above 0 (FILE, line 3)"),
         (under("/**", tick_hz="0"), [], "tick_hz is 0, but"),
@@ -178,7 +205,7 @@ def test_a_wrong_parameter_is_said_with_its_place(
 def test_simulated_time_that_does_not_come_is_said(tmp_path: Path) -> None:
     (tmp_path / "tree.xml").write_text(TREE.replace("Note", "AlwaysSuccess"))
     script = (
-        "import sys; from tree_gardener import ros_main; ros_main._CLOCK_S = 0.2;"
+        "import sys; from tree_gardener import ros_main, ros_spinning; ros_spinning.CLOCK_S = 0.2;"
         "sys.exit(ros_main.run_tree('tree.xml', node_name='waiting'))"
     )
     program = subprocess.Popen(

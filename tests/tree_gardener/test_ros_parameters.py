@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
+from pathlib import Path
+
 import pytest
 
-from tree_gardener.ros_parameters import ParameterError, ServerParameters, read_arguments
+from tree_gardener.ros_parameters import (
+    ParameterError,
+    ServerParameters,
+    asks_for_help,
+    help_text,
+    read_arguments,
+)
 
 
 def test_the_words_of_a_command_line_are_read() -> None:
@@ -25,3 +34,28 @@ def test_a_server_has_parameters_of_its_own() -> None:
         read_arguments(["--on_finish=repeat"], ServerParameters)
     with pytest.raises(ParameterError):
         read_arguments(words)
+
+
+def test_help_has_every_parameter_with_its_default() -> None:
+    defaults = ServerParameters(Path("a/t.xml"), 12.5, "stop", "bt_execution", "queue")
+    text = help_text("patrol", "Runs trees.", defaults)
+    for field in dataclasses.fields(defaults):
+        assert f"--{field.name}=…" in text
+    assert "(default: 12.5)" in text
+    assert "(default: 'a/t.xml')" in text
+    assert "on_finish" not in text
+
+
+@pytest.mark.parametrize(
+    ("words", "asks"),
+    [
+        (["--help"], True),
+        (["--tick_hz=5", "-h"], True),
+        (["--ros-args", "-r", "a:=b", "--", "--help"], True),
+        (["--ros-args", "-h"], False),
+        (["--tick_hz=5"], False),
+        ([], False),
+    ],
+)
+def test_whether_a_command_line_asks_for_help(words: list[str], asks: bool) -> None:
+    assert asks_for_help(words) is asks

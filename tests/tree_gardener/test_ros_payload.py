@@ -14,15 +14,20 @@ def test_a_json_object_is_entries_and_the_text_is_one_too() -> None:
     assert blackboard_of("")["payload"] == ""
 
 
-@pytest.mark.parametrize("text", ["", "hello", "[1, 2]", "12"])
-def test_another_text_is_no_entries(text: str) -> None:
+@pytest.mark.parametrize("text", ["", " \n", '"hello"', "[1, 2]", "12", "null", "true"])
+def test_another_value_of_json_is_no_entries(text: str) -> None:
     assert entries_of(text) == {}
+    assert blackboard_of(text)["payload"] == text
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
         ('{"a"}', "line 1, column 5"),
+        ("hello", "not JSON: Expecting value (line 1, column 1)"),
+        ("[1,\n 2", "not JSON: Expecting ',' delimiter (line 2, column 3)"),
+        ("[NaN]", "not JSON: NaN is not a number"),
+        ("[" * 100_000, "not JSON"),
         ('{"a": NaN}', "NaN is not a number"),
         ('{"": 1}', "the member ''"),
         ('{"@a": 1}', "the member '@a'"),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.domains import own_domain_id
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.programs import Peer, program
@@ -23,7 +24,7 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),
 ]
 
-DOMAIN_ID = 201
+DOMAIN_ID = own_domain_id()
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
 TREES = """
 <root BTCPP_format="4" main_tree_to_execute="Main">
@@ -187,8 +188,10 @@ def test_the_payload_is_on_the_blackboard(serve: Any) -> None:
     assert client.run("Checks", '{"speed": 0.5, "place": "kitchen"}')[0] == SUCCEEDED
     assert client.run("Checks", '{"speed": 0.4, "place": "kitchen"}')[0] == ABORTED
     assert client.run("Typed", '{"wait": 1}')[0] == SUCCEEDED
-    assert client.run("Main", "any text")[0] == SUCCEEDED
+    assert client.run("Main", '"any text"')[0] == SUCCEEDED
 
+    assert client.run("Main", "any text")[0] == ABORTED
+    assert "the payload is not JSON" in client.run("Main", "any text")[2]
     message = client.run("Main", '{"speed": 0.5,\n "place"}')[2]
     assert "the payload is not a JSON object" in message
     assert "line 2, column" in message

@@ -199,3 +199,32 @@ def test_a_caller_that_counts_the_ticks_decides_when_one_is_due() -> None:
     assert subject.tick_now() is Status.SUCCESS
     assert subject.tick_now() is None
     assert subject.is_finished
+
+
+@pytest.mark.parametrize("method", ["initialise", "update"])
+def test_an_action_that_raises_in_its_first_tick_is_terminated_at_the_end_of_the_run(method: str) -> None:
+    def fail(_: object) -> None:
+        raise ValueError("no arm")
+
+    cls = type("A", (recording(R),), {method: fail})
+    halted: list[str] = []
+    subject = Runner(
+        load('<A name="a"/>', nodes={"A": cls}), tick_hz=10.0, halted=lambda: halted.append("halted")
+    )
+    subject.tick_now()
+    assert leaf(subject.tree, "a").calls[-1] == "terminate INVALID from INVALID"
+    assert (subject.is_finished, halted) == (True, ["halted"])
+
+
+def test_an_error_outside_of_a_tick_ends_the_run_once_and_halts_the_tree() -> None:
+    faults: list[str] = []
+    ends: list[Status] = []
+    subject = runner(R, fault=lambda error: faults.append(str(error)), finished=ends.append)
+    subject.tick_now()
+    for text in ("first", "second"):
+        subject.fail(ValueError(text))
+    assert leaf(subject.tree, "a").calls[-1] == "terminate INVALID from RUNNING"
+    assert [fault.partition(" at ")[0] for fault in faults] == [
+        f"a callback that belongs to no node: ValueError: {text}" for text in ("first", "second")
+    ]
+    assert (ends, str(subject.error)) == ([Status.FAILURE], faults[0])

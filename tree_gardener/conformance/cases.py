@@ -11,7 +11,13 @@ from typing import Any
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.clock import ManualClock
-from tree_gardener.conformance.deviations import WatchedBlackboard
+from tree_gardener.conformance.deviations import (
+    Deviation,
+    WatchedBlackboard,
+    of_name,
+    of_refusal,
+    of_run,
+)
 from tree_gardener.conformance.leaves import Trace, leaves
 from tree_gardener.errors import LoadError, PortError, ScriptError, TickError
 from tree_gardener.nav2 import NODES
@@ -48,8 +54,17 @@ class Outcome:
         return bool(self.differences) and not self.deviation
 
 
-def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
-    """Runs all cases of a file: JSON lines (perhaps compressed), or one JSON list (the table of scripts)."""
+def run_file(path: str | pathlib.Path, own: Mapping[str, Deviation] | None = None) -> Iterator[Outcome]:
+    """Runs all cases of a file: JSON lines (perhaps compressed), or one JSON list (the table of scripts).
+
+    `own` are further reasons for differences, by the names of cases.
+    """
+    for outcome in _outcomes(path):
+        given = of_name(outcome.name, own or {}) if outcome.failed else ""
+        yield dataclasses.replace(outcome, deviation=given) if given else outcome
+
+
+def _outcomes(path: str | pathlib.Path) -> Iterator[Outcome]:
     path = pathlib.Path(path)
     raw = path.read_bytes()
     text = (gzip.decompress(raw) if path.suffix == ".gz" else raw).decode("utf-8")
@@ -72,12 +87,16 @@ def run_case(case: dict[str, Any], nodes: Callable[[Trace], Mapping[str, Any]] |
     except LoadError as error:
         if case.get("load_error"):
             return Outcome(case["name"], ())
-        return Outcome(case["name"], (f"it does not load: {error}",))
+        return Outcome(case["name"], (f"it does not load: {error}",), of_refusal(case, error))
+
+
+def _named_in(case: dict[str, Any]) -> str:
+    """Returns all text of a case that can name a class of nodes."""
+    return f"{case['xml']} {case.get('extra_xml', '')} {case.get('substitutions', '')}"
 
 
 def _outcome(name: str, differences: tuple[str, ...], run: "_Run") -> Outcome:
-    reasons = sorted(run.board.deviations) if differences else []
-    return Outcome(name, differences, reasons[0] if reasons else "")
+    return Outcome(name, differences, of_run(run.case, run.tree, run.error) if differences else "")
 
 
 def _run_load_case(case: dict[str, Any]) -> Outcome:
@@ -87,14 +106,15 @@ def _run_load_case(case: dict[str, Any]) -> Outcome:
         located = all(problem.line > 0 and problem.column > 0 for problem in error.diagnostics)
         if case["rejected_410"]:
             return Outcome(case["name"], () if located else (f"the refusal has no position: {error}",))
-        return Outcome(case["name"], (f"it must load, but: {error}",))
+        return Outcome(case["name"], (f"it must load, but: {error}",), of_refusal(case, error))
     if case["rejected_410"]:
-        return Outcome(case["name"], (f"it must be refused: {case.get('error_410')}",))
+        return _outcome(case["name"], (f"it must be refused: {case.get('error_410')}",), run)
     expected = case.get("first_tick_410")
     try:
         found = run.tick().name
     except TickError as error:
         found = f"exception: {error}"
+        run.error = error
     wants_error = expected is not None and expected not in Status.__members__
     same = found.startswith("exception") if wants_error else expected in (None, found)
     differences = () if same else (f"first tick: expected {expected}, got {found}",)
@@ -118,7 +138,11 @@ class _Run:
             compile_script(case["init_script"]).run(Environment(board, self.enums))
         self.tree = Tree.from_xml(
             case["xml"],
-            {**NODES, **leaves(self.trace), **(nodes(self.trace) if nodes is not None else {})},
+            {
+                **NODES,
+                **leaves(self.trace, _named_in(case)),
+                **(nodes(self.trace) if nodes is not None else {}),
+            },
             self.clock,
             blackboard=board,
             enums=self.enums,
@@ -127,6 +151,7 @@ class _Run:
             substitutions=case.get("substitutions"),
         )
         self.expected_board: dict[str, Any] = {}
+        self.error: TickError | None = None
 
     def tick(self) -> Status:
         """Ticks the tree in the way that the case says."""
@@ -150,7 +175,7 @@ class _Run:
             try:
                 root = self.tick()
             except TickError as error:
-                raised = error
+                raised = self.error = error
             if (raised is not None) != ("exception" in expected):
                 wanted = expected.get("exception", "no exception")
                 yield f"{place}: expected {wanted}, got {raised or root.name}"
@@ -183,14 +208,14 @@ class _Run:
         """Compares the place, type and name of each node with the case; yields each difference."""
         for expected, node in zip(self.case.get("nodes", []), self.tree.nodes, strict=False):
             found = {
-                "uid": node.uid,
-                "parent": node.parent.uid if node.parent is not None else 0,
+                "uid": node.number,
+                "parent": node.parent.number if node.parent is not None else 0,
                 "type": node.type,
                 "kind": node.kind,
                 "name": node.name,
                 "path": node.path,
             }
-            yield from _compare(f"node {node.uid}", expected, found)
+            yield from _compare(f"node {node.number}", expected, found)
         if "nodes" in self.case:
             yield from _compare("number of nodes", len(self.case["nodes"]), len(self.tree.nodes))
 
@@ -262,8 +287,6 @@ def _comparable(board: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
         if entries
     }
 
-
-# -- the table of scripts ---------------------------------------------------------------------------
 
 _TABLE_SCRIPT = "i:=3; j:=2; d:=2.5; s:='abc'; n:='42'; t:=true"
 

@@ -1,12 +1,13 @@
 """The leaves of which the conformance cases consist. Each callback records an event."""
 
+import functools
 from typing import Any, ClassVar
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status as PyTreesStatus
 
 from tree_gardener.errors import PortError
-from tree_gardener.ports import Port, get_input, node_of, set_output
+from tree_gardener.ports import Port, get_input, node_of, pointer_key, set_output
 from tree_gardener.status import Status
 from tree_gardener.values import format_number
 
@@ -56,7 +57,10 @@ class _Scripted(Traced):
 
     def next_result(self) -> Any:
         """Returns the status of the next letter of the script."""
-        script = get_input(self, "script")
+        try:
+            script = get_input(self, "script")
+        except PortError:  # it replaces a node that has no such port
+            script = "S"
         letter = script[min(self.cursor, len(script) - 1)]
         self.cursor += 1
         return RESULTS[letter]
@@ -144,7 +148,8 @@ class Inc(Traced):
             count = get_input(self, "counter")
         except PortError:
             count = 0
-        set_output(self, "counter", count + 1)
+        if pointer_key(node_of(self).ports.get("counter", ""), "counter") is not None:
+            set_output(self, "counter", count + 1)
         self.event(f"inc:{self.path}={count + 1}")
         return PyTreesStatus.SUCCESS
 
@@ -152,8 +157,14 @@ class Inc(Traced):
 _TYPES = {"Int": int, "Str": str, "Double": float, "Bool": bool}
 
 
-def leaves(trace: Trace) -> dict[str, type[Traced]]:
-    """Returns the leaf classes of the cases; the leaves write to this trace."""
+def leaves(trace: Trace, text: str | None = None) -> dict[str, type[Traced]]:
+    """Returns the leaf classes of the cases, or those that a text names; the leaves write to this trace."""
+    found = _classes().items()
+    return {name: type(name, (cls,), {"trace": trace}) for name, cls in found if text is None or name in text}
+
+
+@functools.cache
+def _classes() -> dict[str, type[Traced]]:
     classes: dict[str, type[Traced]] = {cls.__name__: cls for cls in (Leaf, SyncLeaf, Cond, Inc)}
     for word, kind in _TYPES.items():
         classes[f"Get{word}"] = type(f"Get{word}", (_Get,), {"INPUT_PORTS": {"value": Port(kind)}})
@@ -162,4 +173,4 @@ def leaves(trace: Trace) -> dict[str, type[Traced]]:
     for word, default in (("Def", 7), ("BB", "{dflt}"), ("Same", "{=}")):
         port = Port(int, default=default)
         classes[f"GetInt{word}"] = type(f"GetInt{word}", (_Get,), {"INPUT_PORTS": {"value": port}})
-    return {name: type(name, (cls,), {"trace": trace}) for name, cls in classes.items()}
+    return classes

@@ -1,12 +1,16 @@
 """Composites and decorators of py_trees as control nodes.
 
+A class may hold its children itself: a composite that adds some in ``__init__``, or a decorator whose
+``__init__`` takes no ``child``. Then the tree need not give it any.
+
 A composite of py_trees ticks its children through generators. Here the composite gets stand-ins as children,
 each of which ticks a child of the engine. py_trees has no SKIPPED: a skipped child has the status INVALID. A
 composite whose own result is INVALID is SKIPPED if a child was skipped in the tick; otherwise it fails, as an
 action does.
 """
 
-from collections.abc import Iterator
+import inspect
+from collections.abc import Collection, Iterator
 from typing import Any, ClassVar, cast
 
 from py_trees.behaviour import Behaviour
@@ -59,6 +63,13 @@ class _Adapter(ControlNode):
 
     CLASS: ClassVar[Any]
 
+    @property
+    def inner(self) -> list[Behaviour]:
+        """The behaviours that the user's object made itself, children first as py_trees sets them up."""
+        return [
+            each for each in self.adapted.iterate() if each is not self.adapted and type(each) is not _Child
+        ]
+
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.has_skipped = False
@@ -72,8 +83,9 @@ class _Adapter(ControlNode):
     def __setattr__(self, name: str, value: Any) -> None:
         super().__setattr__(name, value)
         if name == "tree_gardener_node":
-            self.adapted.tree_gardener_node = value
-            rebind(self.adapted)
+            for each in (self.adapted, *self.inner):
+                each.tree_gardener_node = value
+                rebind(each)
 
     def adopt(self) -> None:
         """Gives the composite its children, at its first use."""
@@ -83,7 +95,7 @@ class _Adapter(ControlNode):
 
     def update(self) -> Status:
         """Ticks the user's object once."""
-        if not self.stand_ins:
+        if not self.stand_ins and self.tree_gardener_node.children:
             self.adopt()
         self.has_skipped = False
         for _ in self.adapted.tick():
@@ -115,9 +127,41 @@ class _DecoratorAdapter(_Adapter, DecoratorNode):
         return self.CLASS(name, child=self.stand_ins[0])
 
 
+class _ClosedAdapter(_Adapter):
+    """Ticks a decorator of py_trees that makes its child itself."""
+
+    MIN_CHILDREN = MAX_CHILDREN = 0
+
+
+class _OpenAdapter(_Adapter):
+    """Ticks a composite of py_trees that may make its children itself."""
+
+    MIN_CHILDREN = 0
+
+
+def _constructor(cls: type) -> Any:
+    return cls.__init__  # type: ignore[misc]
+
+
+def inner_behaviours(owner: Any) -> list[Behaviour]:
+    """Returns the behaviours that a composite or decorator of py_trees made itself, children first."""
+    return owner.inner if isinstance(owner, _Adapter) else []
+
+
+def holds_nothing(behaviour: Any, children: Collection[Any]) -> bool:
+    """Returns whether a composite of py_trees has no child, neither in the tree nor of its own."""
+    return isinstance(behaviour, _OpenAdapter) and not children and not behaviour.inner
+
+
 def adapted(cls: type) -> type[ControlNode] | None:
     """Returns the control node that ticks a py_trees class; None if it is not a composite or decorator."""
-    base = (
-        _Adapter if issubclass(cls, Composite) else _DecoratorAdapter if issubclass(cls, Decorator) else None
-    )
-    return None if base is None else cast("type[ControlNode]", type(cls.__name__, (base,), {"CLASS": cls}))
+    if issubclass(cls, Composite):
+        is_shipped = _constructor(cls).__module__ == Composite.__module__
+        base: type[_Adapter] = _Adapter if is_shipped else _OpenAdapter
+    elif issubclass(cls, Decorator):
+        takes = inspect.signature(_constructor(cls)).parameters
+        is_open = "child" in takes or any(each.kind is each.VAR_KEYWORD for each in takes.values())
+        base = _DecoratorAdapter if is_open else _ClosedAdapter
+    else:
+        return None
+    return cast("type[ControlNode]", type(cls.__name__, (base,), {"CLASS": cls}))

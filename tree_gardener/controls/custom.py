@@ -11,7 +11,6 @@ contract are TickErrors with a code:
 * TG705: the node, or one of its children, was ticked while it was being ticked.
 """
 
-import contextlib
 from collections.abc import Callable, Mapping
 from threading import get_ident
 from typing import Any
@@ -20,7 +19,7 @@ from py_trees.common import Status as PyTreesStatus
 
 from tree_gardener.clock import Timer
 from tree_gardener.control_node import ControlNode
-from tree_gardener.errors import TickError, calling_place, class_place, describe
+from tree_gardener.errors import TickError, calling_place, class_place, describe, warn_of
 from tree_gardener.node import Control, Kind, Node
 from tree_gardener.ports import Manifest
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
@@ -68,7 +67,9 @@ class CustomControl(Control):
         is_own = type(behaviour).halt is not ControlNode.halt
         self.own_halt: Callable[[], Any] | None = behaviour.halt if is_own else None
 
-    # -- ticking ------------------------------------------------------------------------------------
+    def replace_update(self, update: Callable[[], Any]) -> None:
+        """Calls another function in place of `update` from the next tick on."""
+        self.update = update
 
     def execute(self) -> Status:
         return self.settle(self.run())
@@ -150,28 +151,19 @@ class CustomControl(Control):
         self.reset_children()
         return FAILURE
 
-    # -- halting ------------------------------------------------------------------------------------
-
     def halt(self) -> None:
-        """Runs the user's `halt`, then halts the children, even after an exception, and makes the node IDLE.
+        """Runs the user's `halt`, then halts the children and makes the node IDLE.
 
-        If the children alone raise an exception, the status stays, as that of every control node.
+        An exception in the user's `halt` is reported and changes nothing.
         """
         self.was_halted = self.is_ticking
-        first: TickError | None = None
         if self.own_halt is not None:
             try:
                 self.call(self.own_halt)
             except TickError as error:
-                first = error
-        if first is None:
-            self.reset_children()
-            self.status = IDLE
-            return
-        with contextlib.suppress(TickError):
-            self.reset_children()
+                warn_of(self, "halt", error.cause or error)
+        self.reset_children()
         self.status = IDLE
-        raise first from first.cause
 
     def halt_by_itself(self) -> None:
         """Halts the children and makes the node IDLE, at the request of the node's own code."""
@@ -196,10 +188,11 @@ class CustomControl(Control):
 
     def start_timer(self, delay_s: float, callback: Callable[[], None]) -> Timer:
         """Starts a timer of the tree that calls the user's code."""
-        owner = self.owner  # it may have moved to another node when the time is over
-        return self.tree.timers.start(delay_s, lambda: owner.tree_gardener_node.call(callback), owner)
+        from tree_gardener.callbacks import Owned  # noqa: PLC0415 - it handles nodes of this class
 
-    # -- what the user's code calls -----------------------------------------------------------------
+        owner = self.owner  # it may have moved to another node when the time is over
+        guarded = Owned(callback, self.instance_behaviour)
+        return self.tree.timers.start(delay_s, lambda: owner.tree_gardener_node.call(guarded), owner)
 
     def child_at(self, index: int) -> Node:
         """Returns the child with this index."""
@@ -240,8 +233,6 @@ class CustomControl(Control):
             raise self.no_such_child(first)
         for index in range(first, count):
             self.reset_child(index)
-
-    # -- faults -------------------------------------------------------------------------------------
 
     def require_own_call(self, what: str) -> None:
         """Raises a TickError unless the node's own code makes the call while no child is being ticked."""

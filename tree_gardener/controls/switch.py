@@ -1,10 +1,11 @@
 import re
 from collections.abc import Mapping
+from typing import ClassVar, Final
 
 from tree_gardener.errors import PortError, TickError
 from tree_gardener.node import Control
 from tree_gardener.ports import read_port
-from tree_gardener.script.evaluator import TOLERANCE
+from tree_gardener.script.operators import TOLERANCE
 from tree_gardener.status import RUNNING, SKIPPED, Status
 from tree_gardener.values import INT32
 
@@ -23,15 +24,16 @@ class Switch(Control):
 
     __slots__ = ("running",)
     MARKS_RUNNING = ()
+    CASES: ClassVar[int]
 
     def prepare(self) -> None:
         super().prepare()
         self.running = -1
 
     def execute(self) -> Status:
-        cases = int(self.type[len("Switch") :])
+        cases = self.CASES
         if len(self.children) != cases + 1:
-            raise TickError(self, f"{self.type} needs {cases + 1} children and has {len(self.children)}")
+            raise TickError(self, f"a Switch{cases} needs {cases + 1} children and has {len(self.children)}")
         chosen = self.choose(cases)
         if self.running not in (-1, chosen):
             self.reset_child(self.running)
@@ -62,6 +64,14 @@ class Switch(Control):
     def halt(self) -> None:
         self.running = -1
         super().halt()
+
+
+SWITCHES: Final[Mapping[str, type[Switch]]] = {
+    f"Switch{cases}": type(
+        f"Switch{cases}", (Switch,), {"__slots__": (), "CASES": cases, "__doc__": Switch.__doc__}
+    )
+    for cases in range(2, 7)
+}
 
 
 def equal(left: str, right: str, enums: Mapping[str, int]) -> bool:

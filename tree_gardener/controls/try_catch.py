@@ -56,7 +56,7 @@ class TryCatch(Control):
         )  # as there, a parent that does not reset the node keeps its count of skips
 
     def halt(self) -> None:
-        if not self.catching and self.status is RUNNING and self.get("catch_on_halt"):
+        if not self.catching and self.status is RUNNING and self.get_or("catch_on_halt", otherwise=False):
             last = len(self.children) - 1
             for index in range(last):
                 self.reset_child(index)

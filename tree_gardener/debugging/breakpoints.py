@@ -5,18 +5,20 @@ import enum
 import functools
 import re
 from collections.abc import Callable, Sequence
-from typing import Any, Final
+from typing import Final
 
 from tree_gardener.blackboard import EMPTY, Journal
 from tree_gardener.debugging.places import Place, nodes_at, place_of
 from tree_gardener.debugging.stepper import Event
 from tree_gardener.debugging.watches import Watch, Watches
 from tree_gardener.debugging.wiring import RESULTS, Wanted
-from tree_gardener.errors import PortError, ScriptError
+from tree_gardener.descriptions import as_text
+from tree_gardener.errors import PortError, ScriptError, describe
 from tree_gardener.node import Node
 from tree_gardener.script import names_written, parse
 from tree_gardener.status import Status
 
+_LONGEST: Final = 200
 _KEY: Final = re.compile(r"\{([^{}]+)\}")
 
 
@@ -166,6 +168,8 @@ class Breakpoints:
                 return ""
         except (ScriptError, PortError) as error:
             return f"the condition '{each.condition}' of a breakpoint cannot be tested: {error}"
+        except Exception as error:  # noqa: BLE001, RUF100 - a class of the user
+            return f"the condition '{each.condition}' of a breakpoint cannot be tested: {describe(error)}"
         count = self._hits[each] = self._hits.get(each, 0) + 1
         if count < each.hits:
             return ""
@@ -214,14 +218,6 @@ def _is_for(each: Breakpoint, event: Event, status: Status | None) -> bool:
 def _filled(text: str, node: Node) -> str:
     def value(found: "re.Match[str]") -> str:
         entry = node.board.find(found[1].strip())
-        return found[0] if entry is None or entry.value is EMPTY else _short(entry.value)
+        return found[0] if entry is None or entry.value is EMPTY else as_text(entry.value, _LONGEST)
 
     return _KEY.sub(value, text)
-
-
-def _short(value: Any, longest: int = 200) -> str:
-    try:
-        text = str(value)
-    except Exception as error:  # noqa: BLE001, RUF100 - a class of the user
-        return f"<{type(value).__name__}: {error}>"
-    return text if len(text) <= longest else f"{text[: longest - 1]}…"

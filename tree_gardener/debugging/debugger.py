@@ -44,8 +44,6 @@ class Debugger:
         self._hold = hold
         self._say = say
 
-    # -- commands -----------------------------------------------------------------------------------
-
     def request_hold(self) -> None:
         """Stops the tree at the next node that is ticked.
 
@@ -128,8 +126,6 @@ class Debugger:
         """The results that are forced now, in the order of the nodes."""
         return self._forces.all
 
-    # -- the engine's questions -----------------------------------------------------------------------
-
     def attach(self, wiring: Wiring) -> None:
         """Is called by `Tree.debug`."""
         self._wiring = wiring
@@ -175,8 +171,6 @@ class Debugger:
         if self._tree.is_ticking:
             self._ask(Event.HALTED, node, None, "")
 
-    # -- stopping -------------------------------------------------------------------------------------
-
     def _ask(self, event: Event, node: Node, status: Status | None, decided: str) -> bool:
         """Holds the tree at an event if a breakpoint or a step says so; returns whether it did."""
         if self.held is not None:
@@ -186,7 +180,7 @@ class Debugger:
         if not why:
             return False
         self._stepper.end()
-        lead = _lead(node)
+        lead = lead_to(node)
         rest = ahead(self._tree.nodes, self._shape, node.uid, event)
         stop = Stop(event, node.uid, node.path, self._tree.tick_number, status, decided, why, lead, rest)
         self.held = stop
@@ -224,7 +218,7 @@ class Debugger:
         return parent.index if is_resumed and isinstance(parent, Ordered) else 0
 
 
-def _lead(node: Node) -> tuple[int, ...]:
+def lead_to(node: Node) -> tuple[int, ...]:
     """Returns the uids from the root to a node."""
     lead = [node.uid]
     above = node.parent

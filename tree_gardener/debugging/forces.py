@@ -135,13 +135,12 @@ class Forces:
                 add(parent.uid, Wanted(results=RESULTS))
         return wanted
 
-    # -- at nodes ---------------------------------------------------------------------------------------
-
     def before(self, node: Node) -> Status | None:
         """Returns the result in place of a node's tick, or None; a RUNNING node is halted before."""
         force = self._at.get(node.uid)
         if force is None or force.position is not Position.BEFORE:
             return None
+        _note(node)
         if force.status is RUNNING:
             is_running = node.status is RUNNING
             self._begun[node.uid] = is_running and self._begun.get(node.uid, True)
@@ -157,6 +156,7 @@ class Forces:
         force = self._at.get(node.uid)
         if force is None or force.position is not Position.AFTER:
             return None
+        _note(node)
         if force.once:
             self.release(node.uid)
         if force.status is not status:
@@ -192,3 +192,9 @@ class Forces:
         node.status = IDLE
         if node.journal is not None:
             node.journal.touched.append(node)
+
+
+def _note(node: Node) -> None:
+    """Notes, while the tree is observed, that the node's result in this tick is a forced one."""
+    if node.journal is not None and node.uid not in node.journal.forced:
+        node.journal.forced.append(node.uid)

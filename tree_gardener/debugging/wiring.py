@@ -213,8 +213,6 @@ class Wiring:
         asked = self._asked(node, self._asking[node.uid - 1], inner)
         return self._as_root(asked) if node.parent is None else asked
 
-    # -- generated code ---------------------------------------------------------------------------------
-
     @property
     def has_questions(self) -> bool:
         """Whether any node asks."""
@@ -259,8 +257,6 @@ class Wiring:
         """
         is_asked = status in self._asking[node.uid - 1].results
         return self.agent.after(node, status, decided) if is_asked else status
-
-    # -- within a tick ----------------------------------------------------------------------------------
 
     def _asked(self, node: Node, asking: Asking, inner: Execute) -> Execute:
         before, after = self.agent.before, self._after
@@ -314,8 +310,6 @@ class Wiring:
         node.status = IDLE
         if node.journal is not None and node.reported is not IDLE:
             node.journal.touched.append(node)
-
-    # -- switching --------------------------------------------------------------------------------------
 
     def _apply(self) -> None:
         """Brings guards, flags and functions of all nodes to what is chosen."""

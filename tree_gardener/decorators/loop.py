@@ -66,14 +66,18 @@ class Loop(Decorator):
         entry = self.board.find(key)
         if entry is None or entry.value is EMPTY:
             raise TickError(self, f"port 'queue': the entry '{key}' has no value")
+        assert self.manifest is not None
+        kind = self.manifest["queue"].type
+        if entry.is_strong and entry.type_name != kind.name and not isinstance(entry.value, str):
+            message = f"port 'queue': the entry '{key}' is of type {entry.type_name}, not {kind.name}"
+            raise TickError(self, message)
         if isinstance(entry.value, collections.deque):
             self.queue = entry.value
             if self.queue and self.board.journal is not None:
                 self.board.journal(entry, self.uid)
         elif starts:
-            assert self.manifest is not None
             try:
-                self.queue = collections.deque(self.manifest["queue"].type.convert(entry.value))
+                self.queue = collections.deque(kind.convert(entry.value))
             except ConversionError as error:
                 raise TickError(self, f"port 'queue': the entry '{key}': {error}") from None
 
@@ -85,6 +89,8 @@ class Loop(Decorator):
             return self.complete(result)
         if result is SKIPPED:
             return self.skipped()
+        if result is IDLE:
+            raise TickError(self, "'if_empty' is IDLE, which is no result")
         if self.status is not RUNNING:
             self.start()
         return RUNNING

@@ -93,7 +93,7 @@ class RetryUntilSuccessful(_Counting):
             if status is not FAILURE:
                 return self.child_skipped()
             self.count += 1
-            attempts = self.get("num_attempts")
+            attempts = self.get_or("num_attempts", attempts)
             self.reset()
             if before is IDLE and (self.count < attempts or attempts == -1):
                 self.tree.wake_up = True

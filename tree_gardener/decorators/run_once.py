@@ -6,7 +6,8 @@ class RunOnce(Decorator):
     """Ticks its child until it is done once, and never again.
 
     Afterwards, also after halts and in new activations, the node is SKIPPED; if `then_skip` is false, it
-    returns the first result again. A child that was halted while RUNNING is not done.
+    returns the first result again. A `then_skip` that cannot be read is true. A child that was halted while
+    RUNNING is not done.
     """
 
     __slots__ = ("result",)
@@ -16,8 +17,8 @@ class RunOnce(Decorator):
         self.result: Status | None = None
 
     def execute(self) -> Status:
-        then_skip = self.get("then_skip")
         if self.result is not None:
+            then_skip = self.get_or("then_skip", otherwise=True)
             return self.skipped() if then_skip else self.complete(self.result)
         if self.status is not RUNNING:
             self.start()

@@ -16,10 +16,15 @@ class SubTree(Decorator):
     MARKS_RUNNING = (IDLE,)
 
     @property
-    def local_path(self) -> str:
-        attributes = self.element.attributes
-        name = attributes.get("name")
-        return name if name is not None else f"{attributes['ID']}::{self.uid}"
+    def scope_path(self) -> str:
+        """The last part of the path of the nodes inside: the name, or ``ID::number`` if it has none."""
+        return self.name if "name" in self.element.attributes else self.local_path
+
+    @property
+    def scope(self) -> str:
+        """The path of the nodes inside, without their own names."""
+        prefix = self.instance.path()
+        return f"{prefix}/{self.scope_path}" if prefix else self.scope_path
 
     def execute(self) -> Status:
         if self.status is not RUNNING:

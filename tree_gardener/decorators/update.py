@@ -1,7 +1,7 @@
 from typing import ClassVar
 
 from tree_gardener.node import Decorator
-from tree_gardener.ports import pointer_key
+from tree_gardener.ports import entry_key
 from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 
 
@@ -17,8 +17,7 @@ class _WhenUpdated(Decorator):
         super().prepare()
         self.seen = 0
         self.busy = False
-        text = self.ports.get("entry", "")
-        self.key = pointer_key(text, "entry") or text
+        self.key = entry_key(self.ports.get("entry", ""))
 
     def execute(self) -> Status:
         if not self.busy and not self.is_updated():

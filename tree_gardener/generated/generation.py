@@ -65,8 +65,6 @@ class Generation:
         self.warm_tick = 0
         self.is_doubtful = False
 
-    # -- changes ----------------------------------------------------------------------------------------
-
     def restart(self) -> None:
         """Generates everything again; the nodes have dropped their code (`Node.link`)."""
         self.queue = [self.tree.nodes[0]] if self.is_wanted() else []
@@ -107,8 +105,6 @@ class Generation:
         if hooks.wiring is not None and hooks.wiring.asks_all:
             return False
         return all(hook.uid is not None for hook in hooks.hooks)
-
-    # -- making -----------------------------------------------------------------------------------------
 
     def work(self) -> None:
         """Generates code for nodes in the queue, until the time for this is over."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.debugging.wiring import DECIDES
-from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.errors import PortError, ScriptError, TickError, shown
 from tree_gardener.generated.parts import (
     AFTER_FAILURE,
     AFTER_SUCCESS,
@@ -92,8 +92,6 @@ class Recovery:
         self.wiring = wiring
         self.epoch = None if wiring is None else wiring.epoch
 
-    # -- from the code ----------------------------------------------------------------------------------
-
     def rest(self, line: int, returned: Any, start_s: float = 0.0) -> Status | None:
         """Continues after the value on a line returned something unusual.
 
@@ -174,7 +172,7 @@ class Recovery:
             raise node.script.fault(error) from None
         if letter in (ON_SUCCESS, ON_FAILURE, POST):
             node.status = node.status_within(IDLE)
-        raise TickError(node, f"in the script '{_condition(node, letter)}': {error}") from None
+        raise TickError(node, f"in the script '{shown(_condition(node, letter))}': {error}") from None
 
     def tested(self, node: Any, part: Part, letter: str) -> Status | None:
         """Asks a debugger where the condition of a breakpoint is true, or could not be tested."""
@@ -198,8 +196,6 @@ class Recovery:
         while above is not self.node:
             above = above.parent
             self.recorder.touched.append(above)
-
-    # -- the node ---------------------------------------------------------------------------------------
 
     @property
     def before(self) -> Status:
@@ -247,8 +243,6 @@ class Recovery:
         """Removes the mark of the action in progress."""
         if self.variant.marks:
             self.tree.current[0] = 0
-
-    # -- the nodes above --------------------------------------------------------------------------------
 
     def position(self, node: Node, part: Part) -> int:
         """Returns the position of a node among its parent's children."""

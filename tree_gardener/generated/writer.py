@@ -114,8 +114,6 @@ class Writer:
         own = sorted((name for name in self.used if name not in FIXED), key=lambda name: int(name[1:]))
         return [*(name for name in FIXED if name in self.used), *own]
 
-    # -- values -----------------------------------------------------------------------------------------
-
     def fixed(self, name: str) -> ast.Name:
         """Returns a read of a parameter that regions share."""
         self.used.add(name)
@@ -145,8 +143,6 @@ class Writer:
     def time_of_start(self) -> list[ast.expr]:
         """Returns the argument with the time at which the last leaf started, for a function that measures."""
         return [load("start")] if self.variant.times else []
-
-    # -- regions ----------------------------------------------------------------------------------------
 
     def root(self, root: Part) -> Statements:
         """Returns the statements of a region, or of a slice of it."""
@@ -241,8 +237,6 @@ class Writer:
         """
         return [when(rest, [give(self.fixed("RUNNING"))])] if self.variant.asks else [do(rest)]
 
-    # -- children ---------------------------------------------------------------------------------------
-
     def child(self, part: Part, goes: str, level: int, *, is_careful: bool) -> Statements:
         """Returns the statements that tick a child.
 
@@ -329,8 +323,6 @@ class Writer:
         if status != goes:
             body += [let("result", self.fixed(status)), leave()]
         return body
-
-    # -- what runs round a node -------------------------------------------------------------------------
 
     def before(self, part: Part) -> Statements:
         """Returns the tests of a node's conditions; one that decides leaves the function."""

@@ -6,6 +6,7 @@ The other program is not trusted: what it sends is bounded in time, size and dep
 import itertools
 import json
 import re
+import time
 from collections.abc import Iterable, Iterator
 from types import TracebackType
 from typing import Any, Final
@@ -38,10 +39,10 @@ _MOST_ITEMS: Final = 100_000
 _ADDRESS: Final = re.compile(r"(?P<host>[A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(:(?P<port>[0-9]{1,5}))?")
 _ANYWHERE: Final = ("0.0.0.0", "[::]", "::", "0")  # noqa: S104 - refused
 _ID_BYTES: Final = 16
-_WITHOUT_ANSWER: Final = frozenset(
+_CHANGES: Final = frozenset(
     {RequestType.HOOK_INSERT, RequestType.HOOK_REMOVE, RequestType.UNLOCK, RequestType.RECORDING}
 )
-"""Requests whose reply may be a header alone."""
+"""Requests that change something: their reply may be a header alone, and they are not sent twice."""
 _UID: Final = re.compile(rb"[0-9]{1,5}")
 _MOST_REACHED: Final = 1000
 
@@ -173,9 +174,7 @@ class Groot2Client:
 
     def take_cut(self) -> bool:
         """Returns whether the connection was lost since the last call: another process may answer now."""
-        while self._monitor is not None and self._monitor.poll(0):
-            self._monitor.recv_multipart()
-            self._was_cut = True
+        self._note_cut()
         was_cut, self._was_cut = self._was_cut, False
         return was_cut
 
@@ -236,19 +235,46 @@ class Groot2Client:
     def _ask(self, kind: RequestType, *content: bytes) -> bytes:
         """Sends a request; returns the content of the reply."""
         header = Header(kind, next(self._numbers)).pack()
-        socket = self._connected()
         try:
-            socket.send_multipart([header, *content])
-            if not socket.poll(self._timeout_msec):
-                raise SilenceError(f"no answer of {self._address} in {self._timeout_msec / 1000:g} s")
-            reply = socket.recv_multipart()
+            reply = self._exchange([header, *content], is_change=kind in _CHANGES)
         except self._zmq.ZMQError as error:
             self._drop()
             raise GrootError(f"{self._address}: {error}") from None
         except SilenceError:
             self._drop()  # a socket that has lost a reply takes no further request
             raise
-        return self._read(header, reply, 1 if kind in _WITHOUT_ANSWER else 2)
+        return self._read(header, reply, 1 if kind in _CHANGES else 2)
+
+    def _exchange(self, request: list[bytes], *, is_change: bool) -> list[bytes]:
+        """Returns the reply of a request.
+
+        A request that was on its way when the connection was cut has no reply: it is sent once more, unless
+        it changes something.
+        """
+        end_s = time.monotonic() + self._timeout_msec / 1000
+        socket = self._connected()
+        self._note_cut()
+        socket.send_multipart(request)
+        if not is_change and self._is_cut_before_reply():
+            self._drop()
+            socket = self._connected()
+            socket.send_multipart(request)
+        if not socket.poll(max(0, round((end_s - time.monotonic()) * 1000))):
+            raise SilenceError(f"no answer of {self._address} in {self._timeout_msec / 1000:g} s")
+        return list(socket.recv_multipart())
+
+    def _is_cut_before_reply(self) -> bool:
+        """Waits for a reply, a cut, or the end of the time; returns whether it was a cut."""
+        poller = self._zmq.Poller()
+        for each in (self._socket, self._monitor):
+            poller.register(each, self._zmq.POLLIN)
+        found = dict(poller.poll(self._timeout_msec))
+        return self._monitor in found and self._socket not in found
+
+    def _note_cut(self) -> None:
+        while self._monitor is not None and self._monitor.poll(0):
+            self._monitor.recv_multipart()
+            self._was_cut = True
 
     def _read(self, header: bytes, reply: list[bytes], least_parts: int) -> bytes:
         if reply[0] == b"error":

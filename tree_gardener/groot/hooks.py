@@ -54,8 +54,6 @@ class Hooks:
         self._wiring: Wiring | None = None
         self._forces = Forces(tree.nodes)
 
-    # -- from clients -----------------------------------------------------------------------------------
-
     def insert(self, hooks: Iterable[Hook]) -> None:
         """Inserts hooks, each in place of another at the same position.
 
@@ -124,8 +122,6 @@ class Hooks:
             yield
             self._is_stale = True
             self._changed.notify_all()
-
-    # -- on the ticking thread --------------------------------------------------------------------------
 
     def follow(self) -> None:
         """Chooses the nodes that ask, after clients changed the hooks."""

@@ -37,8 +37,6 @@ class Mirror:
         self._transitions: collections.deque[bytes] = collections.deque(maxlen=MOST_TRANSITIONS)
         self._recorded_from_ns: int | None = None
 
-    # -- from the tree ----------------------------------------------------------------------------------
-
     def read(self) -> None:
         """Copies the tree as it is: between two ticks, while it does not tick, or while it is held."""
         with self._lock:
@@ -74,7 +72,7 @@ class Mirror:
         try:
             form = value_to_json(value)
             self._pack(form)
-        except Exception:  # noqa: BLE001, RUF100 - the conversion of a user's type, or a number of any size
+        except (Exception, SystemExit):  # the conversion of a user's type, or a number of any size
             return None
         return form
 
@@ -84,8 +82,6 @@ class Mirror:
         if now != before and self._recorded_from_ns is not None:
             time_us = max(time.time_ns() - self._recorded_from_ns, 0) // 1000
             self._transitions.append(pack_transition(time_us, uid, status))
-
-    # -- to clients -------------------------------------------------------------------------------------
 
     def statuses(self) -> bytes:
         """Returns the statuses of all nodes, instance by instance."""

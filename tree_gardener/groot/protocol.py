@@ -197,9 +197,6 @@ def wire_status(status: Status, before: int) -> int:
     return before + BECAME_IDLE if 0 < before < BECAME_IDLE else before
 
 
-# -- JSON from outside --------------------------------------------------------------------------------
-
-
 def _json(data: bytes) -> Any:
     try:
         return json.loads(data)

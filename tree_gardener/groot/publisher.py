@@ -115,9 +115,8 @@ class Groot2Publisher:
                 f"Groot2 needs the ports {self.port} and {self.port + 1} of {host}: {error}"
             ) from None
 
-    # -- on the publisher's thread ----------------------------------------------------------------------
-
     def _serve(self) -> None:
+        """Answers clients until the publisher is closed, on its own thread."""
         zmq = self._zmq
         poller = zmq.Poller()
         for socket in (self._replies, self._wake):
@@ -156,9 +155,8 @@ class Groot2Publisher:
         """Asks the ticking thread to call a function between two ticks."""
         self._tree.timers.start(0.0, callback)
 
-    # -- on the ticking thread --------------------------------------------------------------------------
-
     def _attach(self) -> None:
+        """Begins to observe the tree, on the ticking thread."""
         if self._unobserve is None:
             self._mirror.read()
             self._unobserve = self._tree.observe(self._mirror.ticked)
@@ -166,6 +164,7 @@ class Groot2Publisher:
         self._is_attached.set()
 
     def _detach(self) -> None:
+        """Stops observing the tree, on the ticking thread."""
         if self._unobserve is not None:
             self._unobserve()
             self._unobserve = None

@@ -4,40 +4,58 @@ By default a behaviour is a StatefulAction. Its class attribute ``NODE_KIND`` ma
 """
 
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Final, NoReturn
+from typing import Any, ClassVar, Final
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status as PyTreesStatus
 
-from tree_gardener.errors import TickError, class_place, describe
+from tree_gardener.errors import TickError, class_place, describe, warn_of
 from tree_gardener.node import Kind, Leaf
-from tree_gardener.ports import Manifest
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status, to_py_trees
 
 PY_RUNNING, PY_SUCCESS = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS
 PY_FAILURE, PY_INVALID = PyTreesStatus.FAILURE, PyTreesStatus.INVALID
+_INITIALISE, _TERMINATE = Behaviour.initialise, Behaviour.terminate
 
 
 class BehaviourLeaf(Leaf):
     """Ticks a py_trees behaviour.
 
     `initialise` and `terminate` are None if the class does not override those of py_trees, which do nothing.
+    An exception in `terminate` is reported and changes nothing.
     """
 
     __slots__ = ("initialise", "instance_behaviour", "terminate", "update")
 
     ALLOWS_RUNNING: ClassVar[bool] = True
 
-    def __init__(self, kind: str, name: str, manifest: Manifest | None, ports: Mapping[str, str]) -> None:
-        super().__init__(kind, name, manifest, ports)
-        self.instance_behaviour: Any = None
+    instance_behaviour: Any
 
     def bind(self, behaviour: Any) -> None:
         """Sets the behaviour that this node ticks."""
         self.instance_behaviour = behaviour
         self.update: Callable[[], Any] = behaviour.update
-        self.initialise: Callable[[], Any] | None = _overridden(behaviour, "initialise")
-        self.terminate: Callable[[Any], Any] | None = _overridden(behaviour, "terminate")
+        initialise, terminate = behaviour.initialise, behaviour.terminate
+        is_plain = getattr(initialise, "__func__", None) is _INITIALISE
+        self.initialise: Callable[[], Any] | None = None if is_plain else initialise
+        is_plain = getattr(terminate, "__func__", None) is _TERMINATE
+        self.terminate: Callable[[Any], Any] | None = None if is_plain else self.guarded(terminate)
+
+    def guarded(self, terminate: Callable[[Any], Any]) -> Callable[[Any], None]:
+        """Returns a function that calls `terminate` and reports what it raises."""
+
+        def call(status: Any) -> None:
+            try:
+                terminate(status)
+            except (Exception, SystemExit) as error:
+                warn_of(self, "terminate", error)
+
+        return call
+
+    def replace_update(self, update: Callable[[], Any]) -> None:
+        """Calls another function in place of `update` from the next tick on."""
+        self.update = update
+        self.tree.forget_code(self)
 
     @property
     def behaviour(self) -> Any:
@@ -45,12 +63,8 @@ class BehaviourLeaf(Leaf):
 
     def halt(self) -> None:
         if self.status is RUNNING:
-            try:
-                if self.terminate is not None:
-                    self.terminate(PY_INVALID)
-            except (Exception, SystemExit) as error:
-                self.status = IDLE
-                self.raise_error(error)
+            if self.terminate is not None:
+                self.terminate(PY_INVALID)
             self.instance_behaviour.status = PY_INVALID
         self.status = IDLE
 
@@ -61,6 +75,12 @@ class BehaviourLeaf(Leaf):
             self.terminate(py_status)
         self.instance_behaviour.status = py_status
         return self.complete(result)
+
+    def end_broken(self) -> None:
+        """Ends an activation whose first tick raised; BehaviorTree.CPP does not halt such a node."""
+        if self.terminate is not None:
+            self.terminate(PY_INVALID)
+        self.instance_behaviour.status = PY_INVALID
 
     def translate(self, returned: Any) -> Status:
         """Converts the value that `update()` returned to a status of the engine, in the rare cases."""
@@ -83,17 +103,20 @@ class BehaviourLeaf(Leaf):
         raise TickError(self, message, place=class_place(self))
 
     def failed(self, error: Exception | SystemExit) -> Status:
-        """Handles an exception. The tick ends with an error, or the node fails, as the tree is configured."""
+        """Handles an exception. The tick ends with an error, or the node fails, as the tree is configured.
+
+        A node that fails is terminated. The end of the run terminates the others: those that are RUNNING when
+        it halts the tree, and one whose first tick raised by `end_broken`.
+        """
         located = error if isinstance(error, TickError) else TickError(self, describe(error), error)
         if self.tree.on_error is None:
+            located.has_begun = self.status is not RUNNING
             raise located from error
         self.tree.on_error(located)
+        if self.terminate is not None:
+            self.terminate(PY_FAILURE)
         self.instance_behaviour.status = PY_FAILURE
         return self.complete(FAILURE)
-
-    def raise_error(self, error: Exception | SystemExit) -> NoReturn:
-        """Raises a TickError that names the node."""
-        raise TickError(self, describe(error), error) from error
 
 
 class StatefulLeaf(BehaviourLeaf):
@@ -112,7 +135,7 @@ class StatefulLeaf(BehaviourLeaf):
         try:
             if before is not RUNNING:
                 if before is not IDLE:
-                    return before
+                    return self.complete(before)  # reported: its parent may reset it in this tick
                 if self.initialise is not None:
                     self.initialise()
             returned = update()
@@ -197,8 +220,3 @@ LEAF_KINDS: Final[Mapping[str, type[BehaviourLeaf]]] = {
     "SyncAction": ImmediateLeaf,
     "Condition": ConditionLeaf,
 }
-
-
-def _overridden(behaviour: Any, method: str) -> Callable[..., Any] | None:
-    bound = getattr(behaviour, method)
-    return None if getattr(bound, "__func__", None) is getattr(Behaviour, method) else bound

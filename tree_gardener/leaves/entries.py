@@ -3,7 +3,7 @@ from typing import Any
 from tree_gardener.blackboard import EMPTY
 from tree_gardener.errors import PortError, TickError
 from tree_gardener.node import SyncLeaf
-from tree_gardener.ports import pointer_key
+from tree_gardener.ports import entry_key
 from tree_gardener.status import FAILURE, SUCCESS, Status
 from tree_gardener.values import ANY, DOUBLE, INT_64, STRING, ConversionError, ValueType, to_text
 
@@ -29,10 +29,10 @@ class SetBlackboard(SyncLeaf):
         given = self.ports.get("value")
         if given is None:
             raise TickError(self, "port 'value' was given no value")
-        pointer = pointer_key(given, "value")
+        pointer = entry_key(given)
         value: Any = given
         kind: ValueType | None = STRING
-        if pointer is not None:
+        if pointer != given:
             source = self.board.find(pointer)
             if source is None:
                 raise TickError(self, f"port 'value': the entry '{pointer}' does not exist")
@@ -44,9 +44,7 @@ class SetBlackboard(SyncLeaf):
             value = self.parsed(value, target.type)
         elif target.is_strong and target.type is not _copied_type(value, kind):
             assert target.type is not None
-            message = (
-                f"the entry '{key}' is of type {target.type.name} and takes no copy of '{pointer or value}'"
-            )
+            message = f"the entry '{key}' is of type {target.type.name} and takes no copy of '{pointer}'"
             raise TickError(self, message)
         self.board.set(key, value, None, self.uid)
         return SUCCESS
@@ -95,8 +93,7 @@ class WasEntryUpdated(SyncLeaf):
 
     def prepare(self) -> None:
         self.seen = 0
-        text = self.ports.get("entry", "")
-        self.key = pointer_key(text, "entry") or text
+        self.key = entry_key(self.ports.get("entry", ""))
 
     def run(self) -> Status:
         entry = self.board.find(self.key)

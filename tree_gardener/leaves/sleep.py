@@ -20,7 +20,7 @@ class Sleep(Leaf):
         if self.status is RUNNING:
             return self.complete(SUCCESS) if self.is_over else RUNNING
         if self.status is not IDLE:
-            return self.status
+            return self.complete(self.status)  # kept: its parent may reset it in this tick
         delay_s = self.get("msec") / 1000.0
         if delay_s <= 0:
             return self.complete(SUCCESS)

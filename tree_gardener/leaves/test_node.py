@@ -3,16 +3,14 @@
 import dataclasses
 from typing import TYPE_CHECKING
 
-from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.errors import PortError, ScriptError, TickError, shown
 from tree_gardener.node import Leaf
 from tree_gardener.script import Environment, compile_script
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
-from tree_gardener.values import as_number
+from tree_gardener.values import ConversionError, status_of
 
 if TYPE_CHECKING:
     from tree_gardener.clock import Timer
-
-_BY_NUMBER = (IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,6 +36,19 @@ class TestConfig:
     failure_script: str = ""
     post_script: str = ""
 
+    @property
+    def problem(self) -> str:
+        """The reason for which no node can have the configuration, or ""."""
+        if self.return_status is IDLE and not self.return_status_script:
+            return "it returns IDLE, which is no result"
+        for text in (self.return_status_script, self.success_script, self.failure_script, self.post_script):
+            try:
+                if text:
+                    compile_script(text)
+            except ScriptError as error:
+                return f"in the script '{shown(text)}': {error}"
+        return ""
+
 
 class TestNode(Leaf):
     """Replaces another node in tests; substitution rules create it.
@@ -59,7 +70,7 @@ class TestNode(Leaf):
         if self.status is RUNNING:
             return self.end() if self.is_over else RUNNING
         if self.status is not IDLE:
-            return self.status
+            return self.complete(self.status)  # kept: its parent may reset it in this tick
         if self.config.async_delay_s <= 0:
             return self.end()
         self.is_over = False
@@ -92,21 +103,22 @@ class TestNode(Leaf):
     def result(self) -> Status:
         if not self.config.return_status_script:
             return self.config.return_status
-        value = self.script(self.config.return_status_script)
-        number = as_number(value)
-        if number is not None and number in range(len(_BY_NUMBER)):
-            return _BY_NUMBER[int(number)]
-        if isinstance(value, str) and value in Status.__members__:
-            return Status[value]
-        raise TickError(self, f"return_status_script gave {value!r}, which is no status")
+        enums = {**self.environment.enums, **{status.name: status.number for status in Status}}
+        value = self.script(
+            self.config.return_status_script, Environment(self.board, enums, self.environment.writer)
+        )
+        try:
+            return status_of(value)
+        except ConversionError as error:
+            raise TickError(self, f"return_status_script: {error}") from None
 
-    def script(self, text: str) -> object:
+    def script(self, text: str, environment: Environment | None = None) -> object:
         if not text:
             return None
         try:
-            return compile_script(text).run(self.environment)
+            return compile_script(text).run(environment or self.environment)
         except (ScriptError, PortError) as error:
-            raise TickError(self, f"in the script '{text}': {error}") from None
+            raise TickError(self, f"in the script '{shown(text)}': {error}") from None
 
     def halt(self) -> None:
         if self.timer is not None:

@@ -95,8 +95,6 @@ class RosActionNode(RosLeaf):
     _sent: SentGoal | None = None
     _seen_s = 0.0
 
-    # -- to override ----------------------------------------------------------------------------------
-
     def set_goal(self, goal: Any) -> Any:
         """Fills the goal. Returns another goal to send instead, or False if there is nothing to send."""
 
@@ -122,8 +120,6 @@ class RosActionNode(RosLeaf):
 
     def on_halt(self) -> None:
         """Is called when the node is halted; the goal is cancelled without it."""
-
-    # -- life -----------------------------------------------------------------------------------------
 
     def setup(self, **kwargs: Any) -> None:
         """Makes the client, if the name of the action is known already."""
@@ -163,8 +159,6 @@ class RosActionNode(RosLeaf):
         if self._client is not None:
             self._client.destroy()
             self._client = None
-
-    # -- within -----------------------------------------------------------------------------------------
 
     def _resolve(self) -> None:
         if self._type is None:

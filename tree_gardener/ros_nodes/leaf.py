@@ -43,8 +43,6 @@ class RosLeaf(Behaviour):
         """Returns seconds of the tree's clock: simulated time in a simulation."""
         return float(node_of(self).tree.clock.now())
 
-    # -- settings -----------------------------------------------------------------------------------
-
     def setting(self, name: str, default: Any) -> Any:
         """Returns the value of a port, or the default if the node has no such port or no value for it."""
         node = node_of(self)
@@ -99,8 +97,6 @@ class RosLeaf(Behaviour):
         """Returns a port's text unless it names an entry; None if it does, or if it has no value."""
         given = node_of(self).ports.get(name)
         return None if not given or pointer_key(given, name) is not None else given.strip()
-
-    # -- fields -------------------------------------------------------------------------------------
 
     def fields(self, prefix: str) -> Iterator[tuple[str, list[str]]]:
         """Yields the ports of a message's fields: the name of the port, and the path in the message."""

@@ -32,8 +32,6 @@ class RosServiceNode(RosLeaf):
     _answer: Any = None
     _began_s = 0.0
 
-    # -- to override ----------------------------------------------------------------------------------
-
     def set_request(self, request: Any) -> Any:
         """Fills the request. Returns another one to send instead, or False if there is nothing to send."""
 
@@ -44,8 +42,6 @@ class RosServiceNode(RosLeaf):
     def on_failure(self, _error: str) -> Any:
         """Returns the result of the node after an error, which is one of the names of this module."""
         return Status.FAILURE
-
-    # -- life -----------------------------------------------------------------------------------------
 
     def setup(self, **kwargs: Any) -> None:
         """Makes the client, if the name of the service is known already."""
@@ -91,8 +87,6 @@ class RosServiceNode(RosLeaf):
         if self._client is not None:
             self.ros.destroy_client(self._client)
             self._client = None
-
-    # -- within -----------------------------------------------------------------------------------------
 
     def _resolve(self) -> None:
         if self._type is None:

@@ -6,7 +6,8 @@ evaluator runs on any blackboard; `bind_run` and `bind_test` return compiled fun
 
 from tree_gardener.errors import ScriptError
 from tree_gardener.script.compiled import bind_run, bind_test, generated_source
-from tree_gardener.script.evaluator import Environment, Script, compile_script
+from tree_gardener.script.environment import Environment
+from tree_gardener.script.evaluator import Script, compile_script
 from tree_gardener.script.parser import parse
 from tree_gardener.script.syntax import Program, names_read, names_written
 

@@ -13,7 +13,8 @@ from threading import Lock
 from typing import Any, Final
 
 from tree_gardener.blackboard import Blackboard
-from tree_gardener.script.evaluator import Environment, Script, compile_script
+from tree_gardener.script.environment import Environment
+from tree_gardener.script.evaluator import Script, compile_script
 from tree_gardener.script.generator import Generator, TooLargeError
 from tree_gardener.script.writer import BOUND
 

@@ -16,7 +16,9 @@ from typing import Any, Final
 from tree_gardener.blackboard import Blackboard
 from tree_gardener.errors import ScriptError
 from tree_gardener.script import remedies
-from tree_gardener.script.evaluator import EXACT, Environment, evaluate
+from tree_gardener.script.environment import Environment
+from tree_gardener.script.evaluator import evaluate
+from tree_gardener.script.operators import EXACT
 from tree_gardener.script.syntax import (
     Assignment,
     Binary,
@@ -102,8 +104,6 @@ class Generator(Writer):
         function = ast.FunctionDef("script", arguments, self.body, decorator_list=[])
         module = ast.Module([function], type_ignores=[])
         return ast.fix_missing_locations(module)
-
-    # -- expressions ----------------------------------------------------------------------------------
 
     def value(self, expression: Expression) -> Value:
         """Adds the statements that compute an expression; returns its value."""
@@ -279,8 +279,6 @@ class Generator(Writer):
             self.body = outer
         self.body.append(ast.If(load(chosen), then, otherwise))
         return Value(result, kind)
-
-    # -- assignments ----------------------------------------------------------------------------------
 
     def assignment(self, expression: Assignment) -> Value:
         if not isinstance(expression.target, Name):

@@ -7,6 +7,7 @@ The levels, tightest first: prefix ``- ~ !``; ``* /``; ``+ - ..``; ``&``; ``| ^`
 import functools
 from typing import Final, NoReturn
 
+from tree_gardener.deep import call_deep
 from tree_gardener.errors import ScriptError
 from tree_gardener.script.lexer import Token, tokenize
 from tree_gardener.script.syntax import (
@@ -24,6 +25,7 @@ from tree_gardener.values import INT64, ConversionError, checked_double
 
 ASSIGNMENTS: Final = frozenset((":=", "=", "+=", "-=", "*=", "/="))
 COMPARISONS: Final = frozenset(("==", "!=", "<", ">", "<=", ">="))
+_NESTING: Final = ASSIGNMENTS | {"(", "?"}
 PREFIXES: Final = frozenset("-~!")
 
 _ASSIGNMENT, _TERNARY, _COMPARISON = 1, 2, 5
@@ -40,8 +42,13 @@ _BINARY: Final = {
     "/": 9,
 }
 
-MAX_NESTING: Final = 100
-"""The deepest nesting of parentheses and prefixes; deeper scripts are refused."""
+MAX_CHARACTERS: Final = 20_000
+"""The length of a script, as in `limits.json` of the translator; longer ones are refused."""
+MAX_NESTING: Final = 250
+"""The deepest nesting of parentheses, choices and assignments, and the longest row of prefixes."""
+_LEVELS: Final = 3 * MAX_NESTING
+"""The levels for which the stack needs room: each nesting may have all levels of operators."""
+_FLAT: Final = 10
 
 
 @functools.lru_cache(maxsize=4096)
@@ -51,7 +58,12 @@ def parse(text: str) -> Program:
     Raises:
         ScriptError: the script cannot be parsed; the error has the span, the reason and a hint.
     """
-    return _Parser(text).program()
+    if len(text) > MAX_CHARACTERS:
+        hint = "split it into several nodes"
+        raise ScriptError((0, 0), f"the script is longer than {MAX_CHARACTERS} characters", hint)
+    parser = _Parser(text)
+    opening = sum(token.text in _NESTING for token in parser.tokens)
+    return parser.program() if opening <= _FLAT else call_deep(parser.program, _LEVELS)
 
 
 class _Parser:
@@ -77,18 +89,22 @@ class _Parser:
                 self.index += 1
         return Program(self.text, tuple(statements))
 
-    def expression(self, level: int) -> Expression:
+    def nested(self, level: int) -> Expression:
+        """Reads an expression within another one, other than the right side of an operator."""
         self.nesting += 1
         if self.nesting > MAX_NESTING:
             self.fail("the script is nested too deeply", "split it into several statements")
+        inner = self.expression(level)
+        self.nesting -= 1
+        return inner
+
+    def expression(self, level: int) -> Expression:
         left = self.operand()
         while True:
             extended = self.extend(left, level)
             if extended is None:
-                break
+                return left
             left = extended
-        self.nesting -= 1
-        return left
 
     def extend(self, left: Expression, level: int) -> Expression | None:
         """Continues an expression with the next operator, unless that binds less tightly than `level`."""
@@ -103,7 +119,7 @@ class _Parser:
             return self.conditional(left)
         if operator in ASSIGNMENTS and level <= _ASSIGNMENT:
             self.index += 1
-            right = self.expression(_ASSIGNMENT)
+            right = self.nested(_ASSIGNMENT)
             return Assignment((left.span[0], right.span[1]), operator, left, right)
         return None
 
@@ -117,11 +133,11 @@ class _Parser:
 
     def conditional(self, condition: Expression) -> Expression:
         self.index += 1
-        then = self.expression(_ASSIGNMENT)
+        then = self.nested(_ASSIGNMENT)
         if self.token.text != ":" or self.token.kind != "operator":
             self.fail("':' is missing after '?'", "a choice is written: condition ? value : other value")
         self.index += 1
-        otherwise = self.expression(_TERNARY)
+        otherwise = self.nested(_TERNARY)
         return Conditional((condition.span[0], otherwise.span[1]), condition, then, otherwise)
 
     def operand(self) -> Expression:
@@ -155,7 +171,7 @@ class _Parser:
 
     def group(self) -> Expression:
         self.index += 1
-        inner = self.expression(_ASSIGNMENT)
+        inner = self.nested(_ASSIGNMENT)
         if self.token.text != ")" or self.token.kind != "operator":
             self.fail("')' is missing", "close every '('")
         self.index += 1

@@ -80,9 +80,36 @@ class Program:
 
 def walk(expression: Expression) -> Iterator[Expression]:
     """Yields the expression and all its parts, in the order of the text."""
-    yield expression
-    for part in parts(expression):
-        yield from walk(part)
+    waiting = [expression]
+    while waiting:
+        each = waiting.pop()
+        yield each
+        waiting.extend(reversed(parts(each)))
+
+
+def left_side(expression: Binary) -> tuple[Expression, list[Binary]]:
+    """Returns the first operand of a chain of operators, and the operators in the order of the text."""
+    first: Expression = expression
+    chain = []
+    while isinstance(first, Binary):
+        chain.append(first)
+        first = first.left
+    return first, chain[::-1]
+
+
+def depth(program: Program) -> int:
+    """Returns the depth to which the evaluator's functions call each other."""
+    deepest = 0
+    waiting = [(statement, 1) for statement in program.statements]
+    while waiting:
+        each, level = waiting.pop()
+        deepest = max(deepest, level)
+        if isinstance(each, Binary):
+            first, chain = left_side(each)
+            waiting += [(first, level + 1), *((operator.right, level + 1) for operator in chain)]
+        else:
+            waiting += [(part, level + (not isinstance(each, Unary))) for part in parts(each)]
+    return deepest
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:

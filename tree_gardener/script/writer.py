@@ -8,7 +8,8 @@ from typing import Any, Final
 
 from tree_gardener import values
 from tree_gardener.script import remedies
-from tree_gardener.script.evaluator import EXACT, TOLERANCE, Environment
+from tree_gardener.script.environment import Environment
+from tree_gardener.script.operators import EXACT, TOLERANCE
 
 ATTRIBUTES: Final = frozenset(("board", "journal", "sequence", "type", "value"))
 
@@ -64,8 +65,6 @@ class Writer:
         self.body: list[ast.stmt] = []
         self.variables = 0
 
-    # -- names and statements -------------------------------------------------------------------------
-
     def fixed(self, name: str) -> ast.Name:
         """Returns a read of a parameter that all scripts have."""
         self.parameters.setdefault(name, FIXED.get(name))
@@ -103,8 +102,6 @@ class Writer:
     def either(self, test: ast.expr, then: ast.expr, otherwise: ast.expr) -> str:
         """Adds the assignment of one of two values to a new variable; returns its name."""
         return self.set(ast.IfExp(test, then, otherwise))
-
-    # -- what is known of values ----------------------------------------------------------------------
 
     def has_type(self, name: str, kind: str) -> ast.expr:
         """Returns a test of the exact type of a variable."""

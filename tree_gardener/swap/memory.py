@@ -75,9 +75,6 @@ def parts_of(node: Node) -> Mapping[str, Part]:
     return {}
 
 
-# -- taking -----------------------------------------------------------------------------------------
-
-
 def taken(node: Node, children: Sequence[Key], orders: Mapping[int, int]) -> dict[str, Any]:
     """Returns the memory of a node as data.
 
@@ -119,9 +116,6 @@ def current_child(state: NodeState) -> Key | None:
         if key is not None:
             return key  # type: ignore[no-any-return]
     return None
-
-
-# -- giving back ------------------------------------------------------------------------------------
 
 
 def give(node: Node, state: NodeState, children: Sequence[Key]) -> list[tuple[Due, str]]:

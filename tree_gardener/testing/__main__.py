@@ -2,7 +2,8 @@
 
 import sys
 
+from tree_gardener.descendants import guarded
 from tree_gardener.testing.apart import serve
 
 if __name__ == "__main__":
-    sys.exit(serve())
+    sys.exit(guarded(serve))

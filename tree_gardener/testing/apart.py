@@ -2,13 +2,15 @@
 
 The process reads one job from its standard input and writes one line of JSON for each start and each result
 to a pipe. A test that ends the process, or does not end, is one failure; the tests after it continue in a new
-process.
+process. What the tests start ends with the process, also what has left its session (`descendants.guarded`).
 """
 
+import contextlib
 import functools
 import json
 import os
 import selectors
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -21,6 +23,9 @@ from tree_gardener.testing.limits import MEMORY_BYTES, PROCESSOR_S, OverLimitErr
 WALL_S: Final = 60.0
 """How long a test may take by the wall clock: an action that sleeps uses no processor time."""
 _LONGEST_LINE: Final = 64 * 1024 * 1024
+_PATIENCE_S: Final = 5.0
+_END: Final = "null"
+"""The last line: a process that an action forked may hold the pipe open for longer than the tests."""
 
 
 def run_apart(
@@ -89,10 +94,19 @@ def _lines(document: dict[str, Any], wall_s: float) -> Iterator[dict[str, Any] |
                     process.stdin.close()
                 except BrokenPipeError:
                     pass
-                yield from _read(pipe, wall_s)
+                yield from _read(pipe, process.pid, wall_s)
             finally:
-                if process.poll() is None:
-                    process.kill()
+                _end(process)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Ends the process, which first ends all that the tests have started."""
+    process.terminate()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(_PATIENCE_S)
+        return
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)  # a test has stopped it
 
 
 def _has_descriptor(stream: Any) -> bool:
@@ -103,13 +117,18 @@ def _has_descriptor(stream: Any) -> bool:
     return True
 
 
-def _read(pipe: IO[bytes], wall_s: float) -> Iterator[dict[str, Any] | str]:
+def _read(pipe: IO[bytes], pid: int, wall_s: float) -> Iterator[dict[str, Any] | str]:
     held = b""
-    with selectors.DefaultSelector() as selector:
+    with selectors.DefaultSelector() as selector, _end_of(pid) as ends:
         selector.register(pipe, selectors.EVENT_READ)
+        for end in ends:
+            selector.register(end, selectors.EVENT_READ)
         while True:
-            if not selector.select(wall_s):
+            ready = selector.select(wall_s)
+            if not ready:
                 yield f"the test did not end within {wall_s:g} s"
+                return
+            if all(key.fileobj is not pipe for key, _ in ready):
                 return
             data = pipe.read(1 << 16)
             if not data:
@@ -120,7 +139,22 @@ def _read(pipe: IO[bytes], wall_s: float) -> Iterator[dict[str, Any] | str]:
                 return
             *lines, held = held.split(b"\n")
             for line in lines:
-                yield json.loads(line)
+                if (item := json.loads(line)) is None:
+                    return
+                yield item
+
+
+@contextlib.contextmanager
+def _end_of(pid: int) -> Iterator[list[int]]:
+    """Yields a descriptor that is ready when a process has ended; on Linux."""
+    if not hasattr(os, "pidfd_open"):
+        yield []
+        return
+    fd = os.pidfd_open(pid)
+    try:
+        yield [fd]
+    finally:
+        os.close(fd)
 
 
 def serve() -> int:
@@ -136,6 +170,7 @@ def serve() -> int:
             result = bounded(functools.partial(suite.run, case), case, document["processor_s"])
             pipe.write(json.dumps(result.to_json(), default=str) + "\n")
             pipe.flush()
+        pipe.write(f"{_END}\n")
     return 0
 
 

@@ -4,11 +4,13 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from tree_gardener.descriptions import equals, text_of
 from tree_gardener.node import Node
 from tree_gardener.status import Status
 from tree_gardener.testing.cases import Claim, Expectation, Failure
 from tree_gardener.testing.coverage import Watch
 from tree_gardener.testing.doubles import candidates
+from tree_gardener.values import as_number
 
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
@@ -255,14 +257,32 @@ def _ticked(view: View, node: Node, wanted: int) -> Test:
 
 
 def same(got: Any, wanted: Any) -> bool:
-    """Returns whether a value is the expected one; numbers may differ by rounding."""
-    if isinstance(got, (int, float)) and isinstance(wanted, (int, float)):
-        return got == wanted or math.isclose(got, wanted, rel_tol=1e-9, abs_tol=1e-12)
-    if isinstance(got, (list, tuple)) and isinstance(wanted, (list, tuple)):
-        return len(got) == len(wanted) and all(same(one, two) for one, two in zip(got, wanted, strict=True))
-    return bool(got == wanted)
+    """Returns whether a value is the expected one; numbers may differ by rounding.
+
+    An array of numpy is compared as a list.
+    """
+    if issubclass(type(wanted), (int, float)):
+        number = as_number(got)
+        if number is not None:
+            return _is_close(number, wanted)
+    if issubclass(type(wanted), (list, tuple)):
+        if type(got).__module__ == "numpy" and hasattr(type(got), "tolist"):
+            got = got.tolist()
+        if issubclass(type(got), (list, tuple)):
+            base: Any = list if issubclass(type(got), list) else tuple
+            items = base.__iter__(got)
+            return bool(base.__len__(got) == len(wanted)) and all(map(same, items, wanted))
+    return equals(got, wanted)
+
+
+def _is_close(got: float, wanted: float) -> bool:
+    if type(got) is int and type(wanted) is int:  # `isclose` makes doubles of both
+        return got == wanted
+    try:
+        return math.isclose(got, wanted, rel_tol=1e-9, abs_tol=1e-12)
+    except OverflowError:
+        return False
 
 
 def _short(value: Any) -> str:
-    text = "no value" if value is None else repr(value)
-    return text if len(text) <= 200 else f"{text[:200]}…"
+    return "no value" if value is None else text_of(value, 200)

@@ -40,6 +40,7 @@ class Job:
         tick_hz: the rate of tests that give none.
         xml: the trees; "" if they are elsewhere.
         sources: Python source by action; None if none may run.
+        on_error: what an exception of a real leaf does, as in a run: ``stop`` or ``failure``.
     """
 
     files: Sequence[TestFile]
@@ -48,10 +49,17 @@ class Job:
     tick_hz: float = DEFAULT_HZ
     xml: str = ""
     sources: Mapping[str, str] | None = None
+    on_error: str = "stop"
 
     def suite(self, *, xml: str | bytes = "", sources: Mapping[str, str] | None = None) -> Suite:
         """Returns the suite of the job; `xml` and `sources` replace its own."""
-        return Suite(xml or self.xml, self.nodes, sources=sources or self.sources, ports=self.ports)
+        return Suite(
+            xml or self.xml,
+            self.nodes,
+            sources=sources or self.sources,
+            ports=self.ports,
+            on_error=self.on_error,
+        )
 
     def cases(self, suite: Suite) -> tuple[list[Case], list[Diagnostic]]:
         """Returns the tests of all files, and the problems of unreadable ones."""
@@ -70,6 +78,7 @@ class Job:
             "format": FORMAT,
             "version": 1,
             "tick_hz": self.tick_hz,
+            "on_error": self.on_error,
             "files": [
                 {
                     "name": file.name,
@@ -99,6 +108,7 @@ class Job:
             nodes=leaf_models(document["nodes"]),
             ports=document["ports"],
             tick_hz=document["tick_hz"],
+            on_error=document.get("on_error", "stop"),
             xml=document["xml"],
             sources=document["sources"],
         )

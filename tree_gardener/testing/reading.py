@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.errors import Diagnostic
+from tree_gardener.intended_values import Wanted, intended
 from tree_gardener.spelling import nearest
 from tree_gardener.status import IDLE, SKIPPED, Status
 from tree_gardener.testing.cases import MAX_TICKS, REAL, Case, Claim, Double, Expectation, Step
@@ -78,8 +79,6 @@ class _Reader:
     def line(self, path: Path) -> int:
         return self.place(path)[0]
 
-    # -- parts --------------------------------------------------------------------------------------
-
     def file_(self, document: Any) -> list[Case]:
         try:
             held = self.mapping(document, (), _FILE_KEYS)
@@ -148,8 +147,6 @@ class _Reader:
         seconds = self.number(held["for_s"], (*path, "for_s"), MAX_TICKS / rate)
         return max(1, math.ceil(seconds * rate - 1e-9))
 
-    # -- doubles ------------------------------------------------------------------------------------
-
     def doubles(self, item: Any, path: Path) -> list[Double]:
         found = []
         for pattern, given in self.any_mapping(item, path).items():
@@ -207,8 +204,6 @@ class _Reader:
                 hint = "write at in each item, the earliest tick first"
                 raise self.refuse((*path, index), "TG902", "the ticks of a list are not in order", hint)
             last = step.at
-
-    # -- expectations -------------------------------------------------------------------------------
 
     def expectation(self, item: Any, path: Path) -> Expectation:
         held = self.any_mapping(item, path)
@@ -275,8 +270,6 @@ class _Reader:
     ) -> Status | None:
         return self.status(held[key], (*path, key), allowed) if key in held else None
 
-    # -- values -------------------------------------------------------------------------------------
-
     def any_mapping(self, item: Any, path: Path) -> Mapping[str, Any]:
         if not isinstance(item, Mapping) or not all(isinstance(key, str) for key in item):
             raise self.refuse(
@@ -311,18 +304,22 @@ class _Reader:
 
     def flag(self, item: Any, path: Path) -> bool:
         if not isinstance(item, bool):
-            raise self.refuse(path, "TG902", "true or false is needed here")
+            raise self.refuse(path, "TG902", "true or false is needed here", _write(item, "boolean"))
         return item
 
     def whole(self, item: Any, path: Path, least: int, most: int) -> int:
-        if not isinstance(item, int) or isinstance(item, bool) or not least <= item <= most:
-            raise self.refuse(path, "TG902", f"a whole number from {least} to {most} is needed here")
-        return item
+        # 1e2 is a whole number, too
+        is_whole = isinstance(item, int) or (isinstance(item, float) and item.is_integer())
+        if not is_whole or isinstance(item, bool) or not least <= item <= most:
+            text = f"a whole number from {least} to {most} is needed here"
+            raise self.refuse(path, "TG902", text, _write(item, "integer"))
+        return int(item)
 
     def number(self, item: Any, path: Path, most: float) -> float:
         is_number = isinstance(item, (int, float)) and not isinstance(item, bool)
         if not is_number or not math.isfinite(item) or not 0 < item <= most:
-            raise self.refuse(path, "TG902", f"a number above 0, at most {most:g}, is needed here")
+            text = f"a number above 0, at most {most:g}, is needed here"
+            raise self.refuse(path, "TG902", text, _write(item, "number"))
         return float(item)
 
     def status(self, item: Any, path: Path, allowed: tuple[str, ...], *, or_real: bool = False) -> Status:
@@ -331,3 +328,8 @@ class _Reader:
             hint = f"write one of {', '.join(others)}"
             raise self.refuse(path, "TG904", f"{item!r} is no status that can be here", hint)
         return Status[item]
+
+
+def _write(item: Any, wanted: Wanted) -> str:
+    write = intended(item, wanted)
+    return "" if write is None else f"write {write}"

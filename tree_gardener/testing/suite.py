@@ -1,5 +1,6 @@
 """Runs behaviour tests against the trees of one document."""
 
+import logging
 import time
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
@@ -29,9 +30,11 @@ from tree_gardener.testing.doubles import (
     stub_class,
 )
 from tree_gardener.tree import Tree
+from tree_gardener.users_nodes import end_broken
 
 MAX_VALUE_BYTES: Final = 16 * 1024 * 1024
 _SHOWN = 8
+_log = logging.getLogger("tree_gardener")
 
 
 class Suite:
@@ -42,6 +45,7 @@ class Suite:
         nodes: the project's own node types.
         sources: Python source by action, for doubles that are ``real``; None refuses them.
         ports: the defaults of each tree's own ports, by tree; used where no other tree calls it.
+        on_error: what an exception of a real leaf does: ``stop`` fails the test, ``failure`` fails the leaf.
     """
 
     def __init__(
@@ -51,8 +55,10 @@ class Suite:
         *,
         sources: Mapping[str, str] | None = None,
         ports: Mapping[str, Mapping[str, str]] | None = None,
+        on_error: str = "stop",
     ) -> None:
         self.xml = xml
+        self.on_error = on_error
         self.models = dict(nodes)
         self.sources = sources
         self.ports = ports or {}
@@ -89,8 +95,6 @@ class Suite:
         for node in tree.nodes:
             coverage.add_seen({node.tree_id: {key_of(node): tuple(seen.get(node.path, ()))}})
         return coverage.to_json()
-
-    # -- before the run -----------------------------------------------------------------------------
 
     def problems_of(self, case: Case) -> list[Diagnostic]:
         """Returns the problems of the names in a test: tree, doubles, nodes and ports."""
@@ -175,8 +179,6 @@ class Suite:
             self._plain[name] = Tree.from_xml(self.xml, self.stubs, ManualClock(), main_tree=name or None)
         return self._plain[name]
 
-    # -- the run ------------------------------------------------------------------------------------
-
     def run(self, case: Case) -> Result:
         """Runs one test. Python of the project runs only if the test has a double that is ``real``."""
         start_s = time.perf_counter()
@@ -186,6 +188,8 @@ class Suite:
         except (LoadError, _RealRefusedError) as error:
             text = error.diagnostics[0].message if isinstance(error, LoadError) else str(error)
             return _result(case, [Failure(text, case.line)], None, start_s)
+        if self.on_error == "failure":
+            tree.on_error = _tolerate
         watch = Watch(tree)
         view = View(tree, watch)
         claims = Claims(view, case.expect)
@@ -199,42 +203,13 @@ class Suite:
         except PortError as error:
             claims.failures.append(Failure(f"blackboard: {error}", case.line))
             return _result(case, claims.failures, watch, start_s)
-        error_ = self._tick(tree, case, clock, view, claims, played)
+        error_ = _tick(tree, case, clock, view, claims, played)
         if error_ is not None:
             claims.failures.append(error_)
         else:
             claims.at_end()
         _shut_down(tree, case, view, claims)
         return _result(case, claims.failures, watch, start_s, view)
-
-    def _tick(  # noqa: PLR0913 - the parts of one run
-        self,
-        tree: Tree,
-        case: Case,
-        clock: ManualClock,
-        view: View,
-        claims: Claims,
-        played: Mapping[int, DoubleBehaviour],
-    ) -> Failure | None:
-        """Ticks the tree to the end of the test; returns the failure that ended it early."""
-        watch = view.watch
-        for number in range(1, case.ticks + 1):
-            view.tick, view.time_s = number, (number - 1) / case.tick_hz
-            clock.sleep(view.time_s - clock.now())
-            try:
-                view.root = tree.tick_exactly_once()
-            except TickError as error:
-                watch.take()
-                return _raised(
-                    error, case, view, "" if isinstance(error.cause, MissingError) else _real_sentence(error)
-                )
-            watch.take()
-            for uid, behaviour in played.items():
-                watch.halts[uid] = behaviour.halts
-            claims.after_tick()
-            if view.root is not RUNNING and not case.repeat:
-                return None
-        return None
 
     def _nodes(self, case: Case) -> dict[str, Any]:
         if not case.uses_real:
@@ -278,6 +253,43 @@ class Suite:
             board[key] = value
 
 
+def _tick(  # noqa: PLR0913 - the parts of one run
+    tree: Tree,
+    case: Case,
+    clock: ManualClock,
+    view: View,
+    claims: Claims,
+    played: Mapping[int, DoubleBehaviour],
+) -> Failure | None:
+    """Ticks the tree to the end of the test; returns the failure that ended it early."""
+    watch = view.watch
+    for number in range(1, case.ticks + 1):
+        view.tick, view.time_s = number, (number - 1) / case.tick_hz
+        clock.sleep(view.time_s - clock.now())
+        try:
+            view.root = tree.tick_exactly_once()
+        except TickError as error:
+            watch.take()
+            end_broken(tree.nodes, error)
+            return _raised(
+                error, case, view, "" if isinstance(error.cause, MissingError) else _real_sentence(error)
+            )
+        watch.take()
+        for uid, behaviour in played.items():
+            watch.halts[uid] = behaviour.halts
+        claims.after_tick()
+        if view.root is not RUNNING and not case.repeat:
+            return None
+    return None
+
+
+def _tolerate(error: TickError) -> None:
+    """Reports an error, so that its leaf fails; raises an error of the test itself."""
+    if isinstance(error.cause, (MissingError, MemoryError)) or _real_sentence(error):
+        raise error
+    _log.warning("%s", error)
+
+
 class _RealRefusedError(Exception):
     """Python of the project may not run here."""
 
@@ -296,10 +308,11 @@ def _unbound(node: BehaviourLeaf) -> Any:
 
 def _bounded(entry: Entry, _: int) -> None:
     value = entry.value
-    if isinstance(value, (str, bytes)):
-        size = len(value)
-    elif isinstance(value, (list, tuple)):
-        size = 8 * len(value)
+    kind: Any = type(value)  # not `isinstance`, nor `len` of a derived class: they may be the user's code
+    if issubclass(kind, (str, bytes)):
+        size = (str if issubclass(kind, str) else bytes).__len__(value)
+    elif issubclass(kind, (list, tuple)):
+        size = 8 * (list if issubclass(kind, list) else tuple).__len__(value)
     else:
         return
     if size > MAX_VALUE_BYTES:

@@ -61,9 +61,10 @@ def test_a_child_ticked_in_the_halt_is_refused_and_the_halt_completes() -> None:
     control = tree.nodes[0]
     assert isinstance(control, CustomControl)
     control.own_halt = lambda: control.instance_behaviour.tick_child(0)
-    with pytest.raises(TickError, match="outside of its own tick") as raised:
-        tree.halt()
-    assert raised.value.code == "TG703"
+    said: list[str] = []
+    tree.on_warning = lambda _, text: said.append(text)
+    tree.halt()
+    assert "outside of its own tick" in said[0], said
     assert all(node.status is Status.IDLE for node in tree.nodes)
 
 
@@ -191,7 +192,7 @@ def test_a_post_condition_that_raises_leaves_the_status_of_within_the_tick() -> 
         assert [node.status for node in tree.nodes] == [before, S]
 
 
-def test_two_errors_in_a_halt_give_the_first() -> None:
+def test_two_errors_in_a_halt_are_both_reported() -> None:
     class Own(ControlNode):
         def update(self) -> Status:
             return self.tick_child(0)
@@ -208,8 +209,10 @@ def test_two_errors_in_a_halt_give_the_first() -> None:
 
     tree = load("<Own><Stuck><Running/></Stuck></Own>", nodes={"Own": Own, "Stuck": Stuck})
     tree.tick_exactly_once()
-    with pytest.raises(TickError, match="first"):
-        tree.halt()
+    said: list[str] = []
+    tree.on_warning = lambda _, text: said.append(text)
+    tree.halt()
+    assert ["first" in said[0], "second" in said[1]] == [True, True], said
     assert all(node.status is Status.IDLE for node in tree.nodes)
 
 

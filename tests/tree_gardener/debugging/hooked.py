@@ -13,7 +13,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from tests.tree_gardener.fuzz.generate import Case, Spec, generate
-from tests.tree_gardener.fuzz.trace import Line, run_ours, run_reference
+from tests.tree_gardener.fuzz.reference import Line, run_reference
+from tests.tree_gardener.fuzz.trace import run_ours
 from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import LoadError, Status
 from tree_gardener.debugging import Debugger, Force, Stop

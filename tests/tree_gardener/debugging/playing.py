@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import random
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from tests.tree_gardener.generated.both_ways import Run
+from tests.tree_gardener.generated.both_ways import KEPT, Run, general
 from tree_gardener import Status
 from tree_gardener.debugging import (
     Breakpoint,
@@ -189,6 +190,7 @@ class Waiter(Player):
         return self.chance.choice((Step.CONTINUE, Step.CONTINUE, Step.INTO, Step.OVER, Step.OUT))
 
 
+@functools.lru_cache(KEPT)
 def record(case: Case, letters: str, *, changes: bool = False) -> tuple[list[Any], Everything]:
     """Runs a case by the nodes' own methods under an agent that every node asks."""
     run = Run(case, is_generated=False, letters=letters, changes=changes)
@@ -205,7 +207,7 @@ def compare(
     Raises:
         AssertionError: the runs differ.
     """
-    plain = Run(case, is_generated=False, letters=letters, changes=changes).run()
+    plain = general(case, letters, changes=changes)
     recorded, agent = record(case, letters, changes=changes)
     _same(case, plain, recorded)
     run = DebuggedRun(case, letters, player=player, changes=changes)
@@ -244,8 +246,6 @@ def _foreseen(case: Case, agent: Everything) -> None:
             assert uid in possible, f"seed {case.seed}: {uid} was ticked unforeseen\n{case.xml()}"
         possible &= rest
 
-
-# -- every command --------------------------------------------------------------------------------------
 
 COMMANDS = (
     *("set_breakpoints", "turn_breakpoints", "resume", "request_hold", "force", "freeze", "after"),

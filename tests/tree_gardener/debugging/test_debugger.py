@@ -160,9 +160,6 @@ def test_a_wrong_breakpoint_leaves_all_as_they_were() -> None:
     assert user.take() == ["a: before its tick"]
 
 
-# -- forced results -------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("result", [Status.SUCCESS, Status.FAILURE, Status.SKIPPED])
 def test_a_running_node_is_halted_with_its_children_before_its_result_is_forced(result: Status) -> None:
     tree = tree_of(
@@ -349,9 +346,6 @@ def test_the_root_runs_alone_as_it_is() -> None:
         User(tree_of(THREE)).debugger.run_alone(1)
 
 
-# -- users' code ----------------------------------------------------------------------------------------
-
-
 class Swallowing(ControlNode):
     """Catches what it can of its children."""
 
@@ -387,3 +381,29 @@ def test_a_detached_debugger_is_not_asked_any_more() -> None:
     tree.tick_exactly_once()
     tree.tick_exactly_once()
     assert user.take() == ["a: before its tick"]
+
+
+@pytest.mark.parametrize("warm", [0, 10])
+@pytest.mark.parametrize(
+    ("force", "result"),
+    [
+        (Force(2, Status.FAILURE), Status.FAILURE),
+        (Force(2, Status.FAILURE, once=True), Status.FAILURE),
+        (Force(2, Status.RUNNING), Status.RUNNING),
+        (Force(2, Status.SKIPPED, position=Position.AFTER), Status.SUCCESS),
+    ],
+)
+def test_an_observer_learns_whose_result_was_forced(warm: int, force: Force, result: Status) -> None:
+    tree = tree_of(THREE)
+    debugger = Debugger(lambda _: None)
+    tree.debug(debugger)
+    seen: list[list[int]] = []
+    tree.observe(lambda changes: seen.append(changes.forced))
+    for _ in range(warm):
+        tree.tick_exactly_once()
+    debugger.force(force)
+    assert tree.tick_exactly_once() is result
+    debugger.release()
+    tree.tick_exactly_once()
+    assert seen[warm:] == [[2], []]
+    assert not any(seen[:warm])

@@ -11,7 +11,7 @@ import pickle
 import signal
 import sys
 
-from tests.tree_gardener.fuzz.trace import run_reference
+from tests.tree_gardener.fuzz.reference import run_reference
 
 ENDLESS_S = 2
 

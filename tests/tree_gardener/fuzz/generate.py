@@ -8,10 +8,13 @@ never ends.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import random
 from xml.sax.saxutils import quoteattr
 
 KEYS = ("i0", "i1", "i2")
+SHARED = 4096
+"""How many cases a process keeps: the short run of every suite takes its trees from the first seeds."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,6 +51,10 @@ class Case:
 
     def xml(self) -> str:
         """The document."""
+        return self._xml
+
+    @functools.cached_property
+    def _xml(self) -> str:
         bodies = "".join(
             f'<BehaviorTree ID="{name}">{spec.xml()}</BehaviorTree>' for name, spec in self.trees
         )
@@ -59,8 +66,14 @@ class Case:
         return sum(spec.size for _, spec in self.trees)
 
 
+@functools.lru_cache(SHARED)
 def generate(seed: int) -> Case:
-    """The case of a seed."""
+    """The case of a seed, shared by all suites of a process."""
+    return make(seed)
+
+
+def make(seed: int) -> Case:
+    """Makes the case of a seed."""
     return _Generator(seed).case()
 
 

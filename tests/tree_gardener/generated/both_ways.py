@@ -7,13 +7,14 @@ observers, marks and counts come and go, by the same random numbers in both runs
 from __future__ import annotations
 
 import dataclasses
+import functools
 import random
 from typing import TYPE_CHECKING, Any
 
 import py_trees
 from py_trees.common import Status as PyTreesStatus
 
-from tests.tree_gardener.fuzz.generate import KEYS, Case, Spec, generate
+from tests.tree_gardener.fuzz.generate import KEYS, SHARED, Case, Spec, generate
 from tree_gardener import Status, TickError, Tree
 from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.clock import ManualClock
@@ -38,6 +39,7 @@ RESULTS: dict[str, Any] = {
     "N": None,
 }
 USUAL, RARE = "SSSSFFFRRK", "SSSSFFFRRKEXVsINH"
+KEPT = 512
 MOST_REPLACED = 100
 """The most results that one hook replaces."""
 WIDE = ("Sequence", "Fallback", "ReactiveSequence", "ReactiveFallback", "ParallelAll")
@@ -208,21 +210,27 @@ class Run:
         self.seen.append((changes.tick, changed, changes.flashed, board))
 
 
+@functools.lru_cache(KEPT)
+def general(case: Case, letters: str, *, changes: bool) -> list[Any]:
+    """Returns what is seen of a run by the nodes' own methods, to which several suites compare others."""
+    return Run(case, is_generated=False, letters=letters, changes=changes).run()
+
+
 def compare(case: Case, letters: str = USUAL, *, changes: bool = False) -> tuple[int, int]:
     """Compares a case run both ways; returns how much was seen, and how many nodes had code at the end.
 
     Raises:
         AssertionError: the runs differ.
     """
-    general = Run(case, is_generated=False, letters=letters, changes=changes).run()
+    plain = general(case, letters, changes=changes)
     run = Run(case, is_generated=True, letters=letters, changes=changes)
     generated = run.run()
-    for index, (expected, found) in enumerate(zip(general, generated, strict=False)):
+    for index, (expected, found) in enumerate(zip(plain, generated, strict=False)):
         assert expected == found, (
             f"seed {case.seed}, entry {index}:\n{case.xml()}\ngeneral   {expected}\ngenerated {found}"
         )
-    assert len(general) == len(generated)
-    return len(general), sum(getattr(node, "quick", None) is not None for node in run.tree.nodes)
+    assert len(plain) == len(generated)
+    return len(plain), sum(getattr(node, "quick", None) is not None for node in run.tree.nodes)
 
 
 def cases(first: int, count: int) -> list[Case]:
@@ -232,12 +240,17 @@ def cases(first: int, count: int) -> list[Case]:
 
 def loadable(seeds: range) -> Iterator[Case]:
     """Makes the random cases of which the engine loads each, one at a time."""
-    for seed in seeds:
-        case = generate(seed)
-        if seed % 3 == 0:
-            case = wide(case)
-        try:
-            Run(case, is_generated=False, letters=USUAL, changes=False)
-        except LoadError:
-            continue
-        yield case
+    yield from filter(None, map(loaded, seeds))
+
+
+@functools.lru_cache(SHARED)
+def loaded(seed: int) -> Case | None:
+    """The case of a seed, a wide one for each third, or None where the engine does not load it."""
+    case = generate(seed)
+    if seed % 3 == 0:
+        case = wide(case)
+    try:
+        Run(case, is_generated=False, letters=USUAL, changes=False)
+    except LoadError:
+        return None
+    return case

@@ -9,7 +9,8 @@ from xml.etree import ElementTree as ET
 import msgpack
 
 from tests.tree_gardener.debugging.hooked import free_port, run_batch
-from tests.tree_gardener.fuzz.trace import Line, run_ours, run_reference
+from tests.tree_gardener.fuzz.reference import Line, run_reference
+from tests.tree_gardener.fuzz.trace import run_ours
 from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import LoadError
 from tree_gardener.groot import Groot2Publisher

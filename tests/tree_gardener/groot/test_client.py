@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import struct
 import time
@@ -10,7 +11,8 @@ from typing import TYPE_CHECKING
 import msgpack
 import pytest
 
-from tests.fakes.groot2_publisher import wrong_publisher
+from tests.deadline import DEADLINE_S, wait_until
+from tests.fakes.groot2_publisher import leaving_publisher, wrong_publisher
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.groot.cpp_program import XML, cpp_program
 from tree_gardener import Status, Tree
@@ -23,9 +25,6 @@ if TYPE_CHECKING:
 
     from tree_gardener.groot.remote import Transition
 
-DEADLINE_S = 60
-# A busy machine may take its time where nothing goes wrong.
-PATIENT_S = 60.0
 NODES = [
     (1, "Sequence", "top", 0),
     (2, "Script", "Script", 1),
@@ -66,20 +65,20 @@ def check(client: Groot2Client, until: Callable[[], object]) -> None:
 
 def test_a_program_of_behaviortree_cpp_is_read() -> None:
     port = free_port()
-    with cpp_program(port), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with cpp_program(port), Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         check(client, lambda: None)
 
 
 def test_a_tree_of_ours_is_read_alike() -> None:
     port = free_port()
     tree = Tree.from_xml(XML)
-    with Groot2Publisher(tree, port), Groot2Client("localhost", port, PATIENT_S) as client:
+    with Groot2Publisher(tree, port), Groot2Client("localhost", port, DEADLINE_S) as client:
         check(client, tree.tick_exactly_once)
 
 
 def test_a_publisher_that_is_replaced_has_another_id() -> None:
     port = free_port()
-    with Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         ids = []
         for _ in range(2):
             with Groot2Publisher(Tree.from_xml(XML), port):
@@ -141,7 +140,7 @@ def test_a_wrong_answer_is_an_error_with_a_reason(
     port = free_port()
     with (
         wrong_publisher(port, answer),
-        Groot2Client("127.0.0.1", port, PATIENT_S) as client,
+        Groot2Client("127.0.0.1", port, DEADLINE_S) as client,
         pytest.raises(GrootError, match=text),
     ):
         client.tree()
@@ -150,7 +149,7 @@ def test_a_wrong_answer_is_an_error_with_a_reason(
 def test_wrong_statuses_are_dropped_and_counted() -> None:
     port = free_port()
     sent = b"".join(struct.pack("<HB", uid, status) for uid, status in ((1, 2), (2, 99), (3, 12), (4, 5)))
-    with wrong_publisher(port, replying(sent + b"x")), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with wrong_publisher(port, replying(sent + b"x")), Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         states, dropped = client.statuses()
     assert (sorted(states), dropped) == ([1, 3], 3)
 
@@ -170,7 +169,7 @@ def test_a_wrong_blackboard_is_an_error(content: bytes) -> None:
     port = free_port()
     with (
         wrong_publisher(port, replying(content)),
-        Groot2Client("127.0.0.1", port, PATIENT_S) as client,
+        Groot2Client("127.0.0.1", port, DEADLINE_S) as client,
         pytest.raises(GrootError, match="blackboard"),
     ):
         client.blackboards(("Main",))
@@ -179,7 +178,7 @@ def test_a_wrong_blackboard_is_an_error(content: bytes) -> None:
 def test_a_blackboard_of_another_form_is_left_out() -> None:
     port = free_port()
     content = msgpack.packb({"Main": {"a": [1], 7: 1}, "Other": [1], 5: {}, "None": None})
-    with wrong_publisher(port, replying(content)), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with wrong_publisher(port, replying(content)), Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         assert client.blackboards(("Main",)) == {"Main": {"a": [1]}, "None": {}}
 
 
@@ -237,26 +236,19 @@ def hook(
     return Hook(HookKey(uid, Position.BEFORE), mode, once, status, enabled=True)
 
 
-def until(read: Callable[[], bool], why: str) -> None:
-    end_s = time.monotonic() + DEADLINE_S
-    while not read():
-        assert time.monotonic() < end_s, why
-        time.sleep(0.01)
-
-
 def test_a_program_of_behaviortree_cpp_is_held_unlocked_and_forced() -> None:
     port = free_port()
-    with cpp_program(port), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with cpp_program(port), Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         client.listen()
         client.tree()
         assert client.hooks() == []
-        until(lambda: _is_reached(client, 3), "the breakpoint is reached")
+        wait_until(lambda: _is_reached(client, 3), "the breakpoint is reached")
         client.unlock(Unlock(HookKey(3, Position.BEFORE), Status.SKIPPED, remove_when_done=False))
-        until(lambda: 3 in client.reached(), "it is reached again")
+        wait_until(lambda: 3 in client.reached(), "it is reached again")
         client.remove(HookKey(3, Position.BEFORE))
         assert client.hooks() == []
         client.insert([hook(3, Mode.REPLACE, Status.FAILURE)])
-        until(lambda: client.statuses()[0][3].was is Status.FAILURE, "it fails")
+        wait_until(lambda: client.statuses()[0][3].was is Status.FAILURE, "it fails")
         with pytest.raises(GrootError, match="refuses"):
             client.remove(HookKey(999, Position.BEFORE))
 
@@ -273,7 +265,7 @@ def _is_reached(client: Groot2Client, uid: int) -> bool:
 
 def test_transitions_of_a_program_are_read() -> None:
     port = free_port()
-    with cpp_program(port), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with cpp_program(port), Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         client.tree()
         client.record(on=True)
         found: list[Transition] = []
@@ -284,7 +276,7 @@ def test_transitions_of_a_program_are_read() -> None:
             found.extend(transitions)
             return {uid for _, _, uid, _ in found} >= set(range(1, 11))
 
-        until(is_all, "all nodes change")
+        wait_until(is_all, "all nodes change")
         times = [low | high << 32 for low, high, _, _ in found]
         assert times == sorted(times)
         client.record(on=False)
@@ -292,7 +284,7 @@ def test_transitions_of_a_program_are_read() -> None:
 
 def test_a_connection_that_was_cut_is_reported_once() -> None:
     port = free_port()
-    with Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+    with Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
         with Groot2Publisher(Tree.from_xml(XML), port):
             client.statuses()
             assert not client.take_cut()
@@ -300,3 +292,28 @@ def test_a_connection_that_was_cut_is_reported_once() -> None:
             client.statuses()
             assert client.take_cut()
             assert not client.take_cut()
+
+
+def test_a_request_that_was_lost_with_its_connection_is_asked_again() -> None:
+    port = free_port()
+    with contextlib.ExitStack() as ends, Groot2Client("127.0.0.1", port, DEADLINE_S) as client:
+
+        def replace() -> None:
+            ends.enter_context(Groot2Publisher(Tree.from_xml(XML), port))
+
+        with leaving_publisher(port, replace):
+            assert set(client.statuses()[0]) == {uid for uid, *_ in NODES}
+            assert client.take_cut()
+            assert not client.take_cut()
+
+
+def test_a_change_that_was_lost_with_its_connection_is_not_made_in_another_program() -> None:
+    port = free_port()
+    with contextlib.ExitStack() as ends, Groot2Client("127.0.0.1", port, 2.0) as client:
+
+        def replace() -> None:
+            ends.enter_context(Groot2Publisher(Tree.from_xml(XML), port))
+
+        with leaving_publisher(port, replace), pytest.raises(SilenceError):
+            client.insert([hook(3)])
+        assert client.hooks() == []

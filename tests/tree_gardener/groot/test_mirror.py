@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import msgpack
 import pytest
 
@@ -48,10 +50,15 @@ class Odd:
     """A value of a type whose conversion fails."""
 
 
+class Leaving:
+    """A value of a type whose conversion ends the program."""
+
+
 register_type(Odd, to_json=lambda value: value.missing)
+register_type(Leaving, to_json=lambda value: sys.exit(3))
 
 
-@pytest.mark.parametrize("value", [2**70, "\ud800", Odd(), object(), [[1]]])
+@pytest.mark.parametrize("value", [2**70, "\ud800", Odd(), Leaving(), object(), [[1]]])
 def test_a_value_that_cannot_be_sent_is_nothing(value: object) -> None:
     tree = Tree.from_xml(XML)
     follows, reads = Mirror(tree, msgpack.packb), Mirror(tree, msgpack.packb)

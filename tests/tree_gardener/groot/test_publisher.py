@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import random
 import socket
@@ -14,6 +15,7 @@ import pytest
 import zmq
 
 from tests.budget import count, seeds
+from tests.deadline import DEADLINE_S
 from tests.tree_gardener.debugging import hooked
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.fuzz.compare import reference_traces
@@ -28,11 +30,13 @@ from tree_gardener.groot.mirror import Mirror
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from tests.tree_gardener.fuzz.generate import Case
+    from tests.tree_gardener.fuzz.reference import Line
+
 XML = """<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
 <Script code="first := 1"/><Script code="second := 1"/><Sleep msec="60000"/>
 </Sequence></BehaviorTree></root>"""
 FIRST, SECOND = 2, 3
-DEADLINE_S = 60
 
 
 class Followed:
@@ -45,7 +49,7 @@ class Followed:
         self.client = Groot2(self.port)
         self.context = zmq.Context()
         self.news: zmq.Socket[bytes] = self.context.socket(zmq.SUB)
-        self.news.setsockopt(zmq.RCVTIMEO, DEADLINE_S * 1000)
+        self.news.setsockopt(zmq.RCVTIMEO, round(DEADLINE_S * 1000))
         self.news.subscribe(b"")
         self.news.connect(f"tcp://127.0.0.1:{self.port + 1}")
         self.is_over = threading.Event()
@@ -95,27 +99,32 @@ def followed() -> Iterator[Followed]:
     found.close()
 
 
+@functools.cache
+def references() -> list[tuple[Case, list[Line] | None]]:
+    """Random trees, and what a client sees of them in BehaviorTree.CPP."""
+    cases = [generate(seed) for seed in range(1, count("groot_publisher_trees") + 1)]
+    return list(zip(cases, reference_traces(cases, published.__name__), strict=True))
+
+
 @pytest.mark.timeout(1800)
 def test_a_client_sees_what_it_sees_of_behaviortree_cpp() -> None:
-    cases = [generate(seed) for seed in range(1, count("groot_publisher_trees") + 1)]
     compared = seen = 0
-    for case, reference in zip(cases, reference_traces(cases, published.__name__), strict=True):
+    for case, reference in references():
         if reference is not None:
             found = published.agreed(reference, published.ours(case))
             assert found == reference, f"seed {case.seed}\n{case.xml()}"
             compared += 1
             seen += sum("seen" in line for line in found)
-    assert compared >= 0.9 * len(cases)
+    assert compared >= 0.9 * len(references())
     assert seen >= 2 * compared
 
 
 def test_a_wrong_picture_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    cases = [generate(seed) for seed in range(1, 5)]
-    references = reference_traces(cases, published.__name__)
+    some = references()[:4]
     monkeypatch.setattr(Mirror, "ticked", lambda mirror, changes: None)
     assert any(
         published.agreed(reference, published.ours(case)) != reference
-        for case, reference in zip(cases, references, strict=True)
+        for case, reference in some
         if reference
     )
 

@@ -95,7 +95,7 @@ def test_a_warning_goes_to_the_log_where_nobody_asked_for_it(caplog: pytest.LogC
     assert "node 'a'" in record.getMessage()
 
 
-@pytest.mark.parametrize("method", ["setup", "initialise", "update", "terminate", "shutdown"])
+@pytest.mark.parametrize("method", ["setup", "initialise", "update", "shutdown"])
 def test_sys_exit_is_a_fault_of_the_node(method: str) -> None:
     def leave(*_: object, **__: object) -> None:
         raise SystemExit(0)
@@ -140,22 +140,67 @@ def test_an_exception_can_count_as_failure() -> None:
     assert [error.path for error in errors] == ["arm"]
 
 
+def test_an_action_that_fails_because_it_raised_is_terminated() -> None:
+    class A(recording(R)):  # type: ignore[misc]
+        def update(self) -> Any:
+            if self.calls.count("update") == 2:
+                raise ValueError("no arm")
+            return super().update()
+
+    tree = load('<A name="a"/>', nodes={"A": A})
+    tree.on_error = lambda _: None
+    assert [tree.tick_exactly_once().letter for _ in range(3)] == ["R", "R", "F"]
+    assert leaf(tree, "a").calls[-1] == "terminate FAILURE from RUNNING"
+
+
+@pytest.mark.parametrize("method", ["initialise", "update"])
+@pytest.mark.parametrize("kind", ["StatefulAction", "SyncAction", "Condition"])
+def test_one_that_raises_in_its_first_tick_is_terminated_too(kind: str, method: str) -> None:
+    def fail(_: object) -> None:
+        raise ValueError("no arm")
+
+    cls = type("A", (recording(S, kind=kind),), {method: fail})
+    tree = load('<A name="a"/>', nodes={"A": cls})
+    tree.on_error = lambda _: None
+    assert tree.tick_exactly_once() is Status.FAILURE
+    assert leaf(tree, "a").calls[-1] == "terminate FAILURE from INVALID"
+
+
 class BadEnd(py_trees.behaviour.Behaviour):
+    result = R
+
     def update(self) -> PyTreesStatus:
-        return R
+        return self.result
 
     def terminate(self, new_status: PyTreesStatus) -> None:
-        raise RuntimeError("stuck")
+        raise self.error("stuck") if hasattr(self, "error") else RuntimeError("stuck")
 
 
-def test_shutdown_continues_after_an_action_that_cannot_be_halted() -> None:
+@pytest.mark.parametrize("error", [RuntimeError, SystemExit])
+@pytest.mark.parametrize("result", [S, F])
+def test_an_exception_in_terminate_is_reported_with_its_line_and_changes_no_result(
+    result: PyTreesStatus, error: type[BaseException]
+) -> None:
+    cls = type("Bad", (BadEnd,), {"result": result, "error": error})
+    tree = load('<Bad name="bad"/>', nodes={"Bad": cls})
+    said: list[str] = []
+    tree.on_warning = lambda node, text: said.append(f"{node.path}: {text}")
+    assert tree.tick_exactly_once().name == result.name
+    [text] = said
+    assert text.startswith("bad: terminate() raised ")
+    assert "stuck" in text
+    line = BadEnd.terminate.__code__.co_firstlineno + 1
+    assert text.endswith(f"test_behaviour.py:{line}")
+
+
+def test_halting_continues_after_an_exception_in_terminate() -> None:
     tree = load(
         '<Parallel failure_count="2"><Bad/><A name="a"/></Parallel>', nodes={"Bad": BadEnd, "A": recording(R)}
     )
+    tree.on_warning = lambda *_: None
     tree.setup()
     tree.tick_exactly_once()
-    with pytest.raises(TickError, match="stuck"):
-        tree.shutdown()
+    tree.shutdown()
     assert leaf(tree, "a").calls[-2:] == ["terminate INVALID from RUNNING", "shutdown"]
 
 

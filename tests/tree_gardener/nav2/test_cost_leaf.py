@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def pose(x: float, yaw: float = 0.0, frame: str = "map") -> PoseStamped:
     made = PoseStamped()
     made.header.frame_id = frame
-    made.pose.position.x = x
+    made.pose.position.x = float(x)
     made.pose.orientation.z, made.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
     return made
 

@@ -21,8 +21,8 @@ from tree_gardener.script import parse
         ("x == == 1", (5, 7), "a value is expected before '=='"),
         ("'open", (0, 1), "has no meaning"),
         ("", (0, 0), "empty"),
-        ("(" * 200, (100, 101), "nested too deeply"),
-        ("-" * 200 + "1", (200, 201), "nested too deeply"),
+        ("(" * 300, (251, 252), "nested too deeply"),
+        ("-" * 300 + "1", (300, 301), "nested too deeply"),
     ],
 )
 def test_errors_of_syntax_have_a_span(text: str, span: tuple[int, int], message: str) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from tests.fakes.hostile_values import VALUES
 from tests.tree_gardener.testing.trees_under_test import sentences, suite
 from tree_gardener.status import Status
 from tree_gardener.testing.cases import Claim
@@ -114,10 +116,30 @@ def test_a_tree_that_ends_early_leaves_expectations_unreached():
         (None, None, True),
         (None, 0, False),
         ("1", 1, False),
+        (np.float32(0.25), 0.25, True),
+        (np.arange(3), [0, 1, 2], True),
+        (np.arange(3), [0, 1], False),
+        (np.array(2.0), 2, True),
+        (10**400, 2.5, False),
+        (10**400, 10**400, True),
     ],
 )
 def test_values_are_compared_as_users_mean_them(got, wanted, equal):
     assert same(got, wanted) is equal
+
+
+def test_any_value_can_be_compared():
+    class Waits:
+        def __eq__(self, _):
+            while True:
+                pass
+
+        __hash__ = None
+
+    for value in [*VALUES, Waits()]:
+        for wanted in (7.5, 77, "b", [7.5], {"a": 7.5}):
+            assert same(value, wanted) is False
+            assert same([value], [wanted]) is False
 
 
 def test_a_claim_reads_as_a_sentence():

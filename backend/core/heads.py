@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
-from backend.core.connection_costs import COSTS, ConnectionCosts
+from backend.core.connection_costs import ABORT, COSTS, ConnectionCosts
 from backend.core.problems import MEDIA_TYPE, problem
 from backend.core.websocket import read_at_most
 
@@ -114,6 +114,7 @@ class PatientProtocol(HttpToolsProtocol):
         read_at_most(self.transport, READ_BODY_BYTES)
         super().on_headers_complete()
         self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
+        self.scope[ABORT] = self.transport.abort  # type: ignore[typeddict-unknown-key]
 
     def on_message_complete(self) -> None:
         """Reads small parts again: the next bytes are a head."""
@@ -136,6 +137,9 @@ class PatientProtocol(HttpToolsProtocol):
         if self._in_head:
             self._refuse(408, "request_too_slow", "The head of the request came too slowly.")
         elif self._is_idle():
+            # Closing would wait until the client has read the end of its last answer.
+            if self.transport.get_write_buffer_size():
+                self.transport.abort()
             self.transport.close()
 
     def _refuse(self, status: int, code: str, sentence: str) -> None:

@@ -27,6 +27,10 @@ log = logging.getLogger(__name__)
 
 DISK_FULL = frozenset({"SQLITE_FULL", "SQLITE_IOERR_WRITE", "53100"})
 """The error codes of SQLite and PostgreSQL for a full disk."""
+DATABASE_READ_ONLY = ("SQLITE_READONLY", "SQLITE_CANTOPEN", "25006")
+"""The beginnings of the error codes of SQLite and PostgreSQL for a database that cannot be written."""
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+READ_ONLY = frozenset({errno.EROFS, errno.EACCES, errno.EPERM})
 RETRY_S = 5
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:bt-studio:problem:"
@@ -89,6 +93,15 @@ class NotFoundError(StudioError):
     title = "Not found"
 
 
+class ServerBusyError(StudioError):
+    """The server has too much of something to do, or to hold, at the moment."""
+
+    status = 503
+    code = "busy"
+    title = "The server is busy"
+    retry_after_s = 5
+
+
 def problem(
     status: int, code: str, *, title: str = "", detail: str, hint: str = "", **extra: Any
 ) -> dict[str, Any]:
@@ -123,9 +136,9 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
     elif isinstance(error, OperationalError):
         log.error("the database failed", exc_info=error)
         document, headers = database_problem(error), {"Retry-After": str(RETRY_S)}
-    elif isinstance(error, OSError) and error.errno == errno.ENOSPC:
-        log.error("the disk is full", exc_info=error)
-        document = disk_full()
+    elif isinstance(error, OSError) and (found := disk_problem(error)) is not None:
+        log.error("the disk cannot be written", exc_info=error)
+        document = found
     elif isinstance(error, PermissionDenied):
         document = problem(403, "forbidden", detail="This is not allowed.")
     elif isinstance(error, exceptions.ValidationError):
@@ -156,15 +169,35 @@ def disk_full() -> dict[str, Any]:
     )
 
 
+def read_only() -> dict[str, Any]:
+    """Returns the problem document for a data folder or a database that cannot be written."""
+    return problem(
+        507,
+        "read_only",
+        detail="The server cannot write to its disk: nothing was written, and what was saved before is safe.",
+        hint="Keep this page open; the data folder or the database is read-only, which its administrator "
+        "must change. Then save again.",
+    )
+
+
+def disk_problem(error: OSError) -> dict[str, Any] | None:
+    """Returns the problem document for an error of the disk; None for other errors."""
+    if error.errno in FULL:
+        return disk_full()
+    return read_only() if error.errno in READ_ONLY else None
+
+
 def database_problem(error: OperationalError) -> dict[str, Any]:
     """Returns the problem document for an error of the database.
 
     The transaction was not committed, so the client may try again as soon as the database can write.
     """
     cause = error.__cause__
-    code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
+    code = str(getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None))
     if code in DISK_FULL:
         return disk_full()
+    if code.startswith(DATABASE_READ_ONLY):
+        return read_only()
     return problem(
         503,
         "database_unavailable",

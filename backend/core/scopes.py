@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from http.cookies import CookieError, SimpleCookie
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.core import guard
@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from asgiref.typing import HTTPScope, WebSocketScope
+
+API: Final = ("/api/", "/tree_api/")
+"""Where programs ask: the REST API, and JdeRobot's API of 2024."""
 
 
 def headers_of(scope: HTTPScope | WebSocketScope) -> dict[str, str]:

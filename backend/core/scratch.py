@@ -1,41 +1,47 @@
 """Temporary files of requests. Their total size is limited, so that they never fill the disk.
 
-The files have no names, so none remains after a crash. Each worker of a server gets an equal part of the
+The files have no names, so none remains after a crash. Folders have; those of a process that was killed are
+deleted with the next one. Each worker of a server gets an equal part of the
 limit; keys apply to all workers.
 """
 
 from __future__ import annotations
 
 import errno
+import fcntl
 import io
 import os
 import shutil
 import tempfile
 import threading
+import time
+from contextlib import contextmanager, suppress
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 from django.core.files.uploadedfile import UploadedFile
 from django.core.files.uploadhandler import FileUploadHandler
 
 from backend.config.environment import environment
-from backend.core.problems import StudioError
+from backend.core.problems import ServerBusyError, StudioError
 from backend.core.processes.siblings import siblings
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterator
 
     from _typeshed import ReadableBuffer
 
     from backend.core.processes.siblings import Place
 
 
-class NoRoomError(StudioError):
+MARKED_WITHIN_S: Final = 60.0
+"""The age from which a folder is marked as used, if it is."""
+
+
+class NoRoomError(ServerBusyError):
     """The temporary files of all users together have reached the limit."""
 
-    status = 503
-    code = "busy"
-    title = "Busy"
     retry_after_s = 15
 
 
@@ -89,6 +95,33 @@ class Scratch:
                     place.give_back()
                 raise
 
+    @contextmanager
+    def directory(self) -> Iterator[Path]:
+        """Makes a folder for a tool that needs names, and deletes it and those of processes that were killed.
+
+        Its files are not counted, since the tool limits them itself.
+
+        Raises:
+            OSError: the disk is full.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        self._sweep()
+        with (
+            tempfile.TemporaryDirectory(dir=self.folder, ignore_cleanup_errors=True) as made,
+            _opened(Path(made)) as mark,
+        ):
+            fcntl.flock(mark, fcntl.LOCK_EX)  # the end of this process releases it
+            yield Path(made)
+
+    def _sweep(self) -> None:
+        for left in self.folder.iterdir():
+            with suppress(OSError):  # gone by now, in use, or a file
+                if time.time() - left.stat().st_mtime < MARKED_WITHIN_S:
+                    continue
+                with _opened(left) as mark:
+                    fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    shutil.rmtree(left, ignore_errors=True)
+
     def take(self, size: int) -> None:
         """Adds bytes to the count, before they are written."""
         with self._lock:
@@ -110,6 +143,15 @@ class Scratch:
             )
         if shutil.disk_usage(self.folder).free - size < self._reserve:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+@contextmanager
+def _opened(folder: Path) -> Iterator[int]:
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    try:
+        yield descriptor
+    finally:
+        os.close(descriptor)
 
 
 class ScratchFile(io.FileIO):

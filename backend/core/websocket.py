@@ -11,7 +11,7 @@ from backend.core.connection_costs import COSTS, ConnectionCosts
 if TYPE_CHECKING:
     from asyncio import BaseTransport, TimerHandle
 
-    from uvicorn._types import ASGISendEvent
+    from uvicorn._types import ASGIReceiveEvent, ASGISendEvent
     from websockets.frames import Frame
     from websockets.http11 import Request
 
@@ -19,14 +19,20 @@ READ_BYTES: Final = 4 << 10
 """Bytes of one read from an accepted client."""
 READ_LITTLE_BYTES: Final = 1 << 10
 """Bytes of one read from a client who is not accepted yet, or who may not send."""
-LARGEST_MESSAGE: Final = 64 << 20
 SMALL_BYTES: Final = 4 << 10
 """The largest message, in bytes, from a client who is not accepted yet, or who may not send."""
 MOST_BYTES: Final = "bt_studio.most_bytes"
 """The key of the largest message in bytes, in the ASGI message that accepts a socket."""
+AS_BYTES: Final = "bt_studio.as_bytes"
+"""The key of whether texts come as bytes, in the ASGI message that accepts a socket: they are passed on."""
+IS_TEXT: Final = "bt_studio.is_text"
+"""The key of whether the bytes of an ASGI message are such a text."""
 IDLE_FRAMES: Final = 100
 """Frames without content that a client may send in a second: pings, pongs, and tiny parts of a message."""
 TINY: Final = 256
+PATIENCE_S: Final = 30.0
+SLOWEST: Final = 8 * 1024
+"""Bytes per second of an unfinished message; the socket is closed after `PATIENCE_S` of less than that."""
 POLICY_VIOLATION: Final = 1008
 TOO_BIG: Final = 1009
 
@@ -45,12 +51,15 @@ class PatientSocket(WebSocketsSansIOProtocol):
 
     _is_resting = False
     _has_backlog = False
+    _as_bytes = False
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._idle_frames, self._since = 0, 0.0
         self._rest: TimerHandle | None = None
         self._costs = ConnectionCosts(None)
+        self._window: TimerHandle | None = None
+        self._stopped_s = 0.0
 
     @property
     def read_paused(self) -> bool:
@@ -74,19 +83,26 @@ class PatientSocket(WebSocketsSansIOProtocol):
         """Cancels a pause; called by asyncio."""
         if self._rest is not None:
             self._rest.cancel()
+        self._end_window()
         self._costs.release()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
         """Processes received bytes, and charges their processor time to the owner; called by asyncio."""
         if not self._costs.hold(len(data)) and self.handshake_complete and not self.close_sent:
-            self.conn.fail(TOO_BIG, "too many large messages at once")
+            self.conn.fail(TOO_BIG, "Too many large messages are on their way. Try again in a moment.")
             self.handle_parser_exception()
             return
         with self._costs.booked():
             super().data_received(data)
+        if not (self.frames or self.conn.reader.buffer):
+            self._costs.nothing_arrives()
+            self._end_window()
+        elif self._window is None and self._costs.is_counted and not self.close_sent:
+            self._begin_window()
         if (rest_s := self._costs.rest_s()) and not self.transport.is_closing():
             self._is_resting = True
+            self._stopped_s += rest_s
             self.transport.pause_reading()
             self._rest = self.loop.call_later(rest_s, self._end_rest)
 
@@ -95,6 +111,34 @@ class PatientSocket(WebSocketsSansIOProtocol):
         if not (self._has_backlog and not self.queue.empty()):
             self._has_backlog = False
             self.transport.resume_reading()
+
+    def _unfinished_bytes(self) -> int:
+        """Returns how much of the message is here; pings between its parts do not count."""
+        return sum(map(len, self.frames)) + len(self.conn.reader.buffer)
+
+    def _begin_window(self) -> None:
+        """Begins a time in which a part of the unfinished message must arrive."""
+        self._stopped_s = 0.0 if self.transport.is_reading() else PATIENCE_S
+        self._window = self.loop.call_later(PATIENCE_S, self._look_at_pace, self._unfinished_bytes())
+
+    def _end_window(self) -> None:
+        if self._window is not None:
+            self._window.cancel()
+            self._window = None
+
+    def _look_at_pace(self, before: int) -> None:
+        """Closes the socket if its message came too slowly, but not for the time in which it was not read."""
+        self._window = None
+        if self.close_sent or self.transport.is_closing():
+            return
+        if self._unfinished_bytes() - before >= PATIENCE_S * SLOWEST:
+            self._begin_window()
+        elif self._stopped_s:
+            self._window = self.loop.call_later(self._stopped_s, self._look_at_pace, before)
+            self._stopped_s = 0.0 if self.transport.is_reading() else PATIENCE_S
+        else:
+            self.conn.fail(POLICY_VIOLATION, "The message came too slowly, or not to its end.")
+            self.handle_parser_exception()
 
     def handle_connect(self, event: Request) -> None:
         """Limits messages to `SMALL_BYTES` until the client is identified."""
@@ -105,8 +149,30 @@ class PatientSocket(WebSocketsSansIOProtocol):
 
     def send_receive_event_to_app(self) -> None:
         """Passes a complete message to the application; called by uvicorn."""
-        self._costs.release()
-        super().send_receive_event_to_app()
+        if self.close_sent:
+            self._costs.release()
+            super().send_receive_event_to_app()
+            return
+        self._costs.complete()
+        self._end_window()
+        if not self._as_bytes or self.curr_msg_data_type != "text":
+            super().send_receive_event_to_app()
+            return
+        # A text of 64 MB could take 256 MB if it were decoded.
+        message: Any = {"type": "websocket.receive", "bytes": b"".join(self.frames), IS_TEXT: True}
+        self.frames = []
+        self.queue.put_nowait(message)
+        if not self.read_paused:
+            self.read_paused = True
+            self.transport.pause_reading()
+
+    async def receive(self) -> ASGIReceiveEvent:
+        """Returns the next message to the application, which has passed on the one before."""
+        self._costs.passed_on()
+        message = await super().receive()
+        if message["type"] == "websocket.receive":
+            self._costs.taken()
+        return message
 
     async def send(self, message: ASGISendEvent) -> None:
         """Sends a message of the application.
@@ -116,6 +182,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         if message["type"] == "websocket.accept":
             most: Any = message.get(MOST_BYTES, self.config.ws_max_size)
             self.conn.max_message_size = most
+            self._as_bytes = bool(message.get(AS_BYTES))
             if most > SMALL_BYTES:
                 read_at_most(self.transport, READ_BYTES)
         await super().send(message)

@@ -1,4 +1,4 @@
-"""A fair queue for workers: owners take turns, and each has a limited number of items in progress."""
+"""A fair queue for workers: the next item is of the owner with the fewest in progress; each has a limit."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ class QueueFullError(Exception):
 
 
 class FairQueue(Generic[Item]):
-    """Queues of all owners, served in turn. It is not thread-safe: the caller holds a lock.
+    """Queues of all owners; those with equally many in progress take turns.
+
+    It is not thread-safe: the caller holds a lock.
 
     Args:
         room: the number of items of all owners that may wait. One owner may have half of them, and so cannot
@@ -23,6 +25,7 @@ class FairQueue(Generic[Item]):
 
     def __init__(self, *, room: int, per_owner: int) -> None:
         self._room, self._per_owner = room, per_owner
+        self._own_room = max(1, room // 2)
         self._waiting: OrderedDict[str, deque[Item]] = OrderedDict()
         self._at_work: Counter[str] = Counter()
 
@@ -34,10 +37,10 @@ class FairQueue(Generic[Item]):
         """Adds an item to the queue.
 
         Raises:
-            QueueFullError: the queue is full, or this owner has half of it.
+            QueueFullError: the queue is full, or this owner has their part of it.
         """
         own = self._waiting.get(owner, ())
-        if len(self) >= self._room or len(own) >= max(1, self._room // 2):
+        if len(self) >= self._room or len(own) >= self._own_room:
             raise QueueFullError
         self._waiting.setdefault(owner, deque()).append(item)
 
@@ -46,10 +49,8 @@ class FairQueue(Generic[Item]):
 
         Returns None if the queue is empty, or if every waiting owner is at its limit.
         """
-        for owner in self._waiting:
-            if self._at_work[owner] < self._per_owner:
-                break
-        else:
+        owner = min(self._waiting, key=self._at_work.__getitem__, default=None)
+        if owner is None or self._at_work[owner] >= self._per_owner:
             return None
         items = self._waiting[owner]
         item = items.popleft()

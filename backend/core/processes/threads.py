@@ -126,12 +126,12 @@ class Threads:
         return inbox
 
     def _work(self, inbox: Inbox) -> None:
-        while (task := inbox.get()) is not None:
-            following: _Task | None = task
+        while (following := inbox.get()) is not None:
             while following is not None:
                 done, tell = following.owner, following.job()
                 following = self._next(inbox, done)  # before `tell`, whose receiver then finds an idle thread
                 tell()
+                del tell  # nothing of a request and its answer stays with a thread that waits
 
     def _next(self, inbox: Inbox, done: str) -> _Task | None:
         """Returns the next call that may begin.

@@ -11,6 +11,7 @@ from uuid import UUID
 from channels.db import database_sync_to_async
 
 from backend.core.problems import NotFoundError
+from backend.core.tasks import ended
 from backend.ingress.sockets import ID, POLICY_VIOLATION, Call, Closed
 from backend.projects.api.notices import notices_of
 from backend.projects.api.open_pages import pages
@@ -61,9 +62,7 @@ async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISend
             return leaving.result() if leaving in done else None
         finally:
             pages.leave(send)
-            telling.cancel()
-            leaving.cancel()
-            await asyncio.gather(telling, leaving, return_exceptions=True)
+            await ended(telling, leaving)
 
 
 async def _relay(following: Any, send: ASGISendCallable) -> None:

@@ -33,21 +33,15 @@ def once(request: Request, user: User, effect: Callable[[], Response]) -> Respon
 
     Otherwise calls `effect` and stores its answer, in one transaction.
     """
-    key = request.headers.get(HEADER, "")
+    key = _key(request)
     if not key:
         return effect()
-    if len(key) > MAX_KEY or not key.isprintable():
-        raise InvalidInputError(f"An idempotency key has at most {MAX_KEY} visible characters.", field=HEADER)
     fingerprint = _fingerprint(request)
     with transaction.atomic():
         transaction_lock(f"key {user.pk} {key}")
-        known = IdempotencyKey.objects.filter(author=user, key=key).first()
+        known = _known(user, key, fingerprint)
         if known is not None:
-            if known.fingerprint != fingerprint:
-                raise IdempotencyError(
-                    "This key belongs to another request.", hint="Use a new key.", field=HEADER
-                )
-            return Response(known.answer, status=known.status, headers={"Idempotency-Replayed": "true"})
+            return known
         response = effect()
         answer: Any = response.data
         IdempotencyKey.objects.create(
@@ -61,6 +55,28 @@ def once(request: Request, user: User, effect: Callable[[], Response]) -> Respon
         return response
 
 
+def replayed(request: Request, user: User) -> Response | None:
+    """Returns the stored answer if the request's key is known, before any work for it; otherwise None."""
+    key = _key(request)
+    return _known(user, key, _fingerprint(request)) if key else None
+
+
+def _key(request: Request) -> str:
+    key = request.headers.get(HEADER, "")
+    if len(key) > MAX_KEY or not key.isprintable():
+        raise InvalidInputError(f"An idempotency key has at most {MAX_KEY} visible characters.", field=HEADER)
+    return key
+
+
+def _known(user: User, key: str, fingerprint: str) -> Response | None:
+    known = IdempotencyKey.objects.filter(author=user, key=key).first()
+    if known is None:
+        return None
+    if known.fingerprint != fingerprint:
+        raise IdempotencyError("This key belongs to another request.", hint="Use a new key.", field=HEADER)
+    return Response(known.answer, status=known.status, headers={"Idempotency-Replayed": "true"})
+
+
 def _fingerprint(request: Request) -> str:
     digest = hashlib.sha256(f"{request.method} {request.get_full_path()}\n".encode())
     if request.content_type.startswith("multipart/"):
@@ -71,6 +87,7 @@ def _fingerprint(request: Request) -> str:
             uploaded.seek(0)
     elif not request.content_type.endswith("json"):
         body = body_of(request)
+        body.seek(0)  # the work has read it
         while part := body.read(PART):
             digest.update(part)
         body.seek(0)

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from backend.projects.documents import checking
 from backend.projects.storage import queries
 from backend.projects.storage.conditions import conditions
 from backend.projects.storage.manifest import MANIFEST, read
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from backend.projects.models import ChangeSet, Draft, Project
     from backend.projects.storage.changes import Existing
-    from backend.projects.storage.queries import StoredFile
+    from backend.projects.storage.queries import ListedFile, StoredFile
+
+WHOLE: Final = ("trees/", MANIFEST, "enums.json")
+"""Beginnings of the paths of files that always come with an opened project; trees have limits."""
+LARGEST_SENT: Final = 256 * 1024
+"""The largest other file, in bytes, that comes with an opened project."""
+SENT_BYTES: Final = 16 * 1024 * 1024
+"""Bytes of all other files that come with an opened project."""
 
 
 def summary(
@@ -39,18 +47,6 @@ def summary(
     }
 
 
-def file(stored: StoredFile) -> dict[str, Any]:
-    """Returns a file with its content."""
-    return {
-        "path": stored.path,
-        "revision": stored.revision,
-        "size": len(stored.data),
-        "sha256": stored.sha256,
-        "updated_at": stored.updated_at.isoformat(),
-        "content": stored.text,
-    }
-
-
 def file_info(existing: Existing) -> dict[str, Any]:
     """Returns a file without its content."""
     return {
@@ -65,20 +61,62 @@ class Opened(NamedTuple):
     """The data of an opened project, before it is checked."""
 
     rows: dict[str, Any]
-    contents: dict[str, bytes]
+    listed: Sequence[ListedFile]
+    loaded: Mapping[str, StoredFile]
+
+    def checked_files(self) -> dict[str, bytes]:
+        """Returns the files as a check needs them, also those that are left out of the answer.
+
+        Raises:
+            QuotaExceededError: they are too large to be checked.
+        """
+        checked = [file for file in self.listed if file.path.startswith(checking.CHECKED)]
+        checking.require_checkable(file.size for file in checked)
+        missing = [file for file in checked if file.path not in self.loaded]
+        files = {**self.loaded, **queries.fetched(missing)}
+        return {file.path: files[file.path].data if file.path in files else b"" for file in self.listed}
 
 
 def opened(project: Project) -> Opened:
-    """Returns all data of an opened project that come from the database."""
-    files = queries.current_files(project)
-    main = files.get(f"trees/{project.main_tree}.json")
+    """Returns all data of an opened project that come from the database.
+
+    Trees and settings come whole. Other files come if they are small, and all together not too large; the
+    client fetches the rest when it needs them.
+    """
+    listed = queries.listed_files(project)
+    loaded = queries.fetched(_sent(listed))
+    main = loaded.get(f"trees/{project.main_tree}.json")
     diagram = queries.root_diagram(main.data) if main is not None else None
-    types = conditions(diagram, lambda path: files[path].data if path in files else None)
+    types = conditions(diagram, lambda path: loaded[path].data if path in loaded else None)
     rows = summary(project, diagram, types) | {
-        "settings": dict(read(files[MANIFEST].data).document),
-        "files": [file(stored) for stored in files.values()],
+        "settings": dict(read(loaded[MANIFEST].data).document),
+        "files": [_file(each, loaded.get(each.path)) for each in listed],
     }
-    return Opened(rows, {path: stored.data for path, stored in files.items()})
+    return Opened(rows, listed, loaded)
+
+
+def _sent(listed: Sequence[ListedFile]) -> list[ListedFile]:
+    """Returns the files whose contents come with an opened project."""
+    sent, left = [], SENT_BYTES
+    for file in listed:
+        if not file.path.startswith(WHOLE):
+            if file.size > LARGEST_SENT or file.size > left:
+                continue
+            left -= file.size
+        sent.append(file)
+    return sent
+
+
+def _file(listed: ListedFile, loaded: StoredFile | None) -> dict[str, Any]:
+    return {
+        "path": listed.path,
+        "revision": listed.revision,
+        "size": listed.size,
+        "sha256": listed.sha256,
+        "updated_at": listed.updated_at.isoformat(),
+        "content": None if loaded is None else loaded.text,
+        "left_out": loaded is None,
+    }
 
 
 def changed(project: Project) -> dict[str, Any]:

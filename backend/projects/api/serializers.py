@@ -96,7 +96,7 @@ class ReportSerializer(serializers.Serializer[Any]):
 
 
 class FileSerializer(serializers.Serializer[Any]):
-    """A current file; `content` is null if the file is not text."""
+    """A current file; `content` is null if the file is not text, or is left out."""
 
     path = serializers.CharField()
     revision = serializers.IntegerField()
@@ -104,6 +104,9 @@ class FileSerializer(serializers.Serializer[Any]):
     sha256 = serializers.CharField()
     updated_at = serializers.DateTimeField()
     content = serializers.CharField(allow_null=True)
+    left_out = serializers.BooleanField(
+        help_text="The file is large: its content must be downloaded. Trees and settings are never left out."
+    )
 
 
 class FileInfoSerializer(serializers.Serializer[Any]):
@@ -170,6 +173,10 @@ class ImportedProjectSerializer(ProjectDetailSerializer):
 
     proposal = ProposalSerializer(
         allow_null=True, help_text="null: the file names its universe, or its actions ask for none."
+    )
+    one_block = serializers.CharField(
+        allow_blank=True,
+        help_text="Why a tree of py_trees is one block; empty if it is a tree of blocks.",
     )
 
 

@@ -19,7 +19,7 @@ from backend.projects.api import serializers as s
 from backend.projects.api.idempotency import once
 from backend.projects.api.schema import NOT_SOUND, ConflictProblemSerializer
 from backend.projects.api.serializers_tests import TestReportSerializer
-from backend.projects.documents import checking, templates
+from backend.projects.documents import bundles, checking, templates
 from backend.projects.storage import names, queries, writes
 from backend.projects.storage.access import Need
 
@@ -45,24 +45,28 @@ def opened(
     The data of the answer are read in the same transaction. Otherwise an error after the commit would make a
     stored write look like a failed one. `more` is added to the answer.
     """
-    contents: dict[str, bytes] = {}
+    made: list[presentation.Opened] = []
 
     def effect() -> Response:
         with transaction.atomic():
             project = write()
             found = presentation.opened(project)
-        contents.update(found.contents)
+        made.append(found)
         return Response(found.rows | dict(more or {}), status=status, headers={"ETag": queries.etag(project)})
 
     response = once(request, user_of(request), effect)
     return checking.reported(
-        view, request, response, lambda: contents or _stored(request, response.data["id"])
+        view,
+        request,
+        response,
+        lambda: made[0].checked_files() if made else _stored(request, response.data["id"]),
     )
 
 
 def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
     """Returns the current files of a project, for the answer to a repeated request."""
-    return queries.contents(queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ))
+    project = queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ)
+    return checking.files_of(project)
 
 
 class Projects(ResourceViewSet):
@@ -123,7 +127,7 @@ class Projects(ResourceViewSet):
             return Response(status=304, headers={"ETag": queries.etag(project)})
         found = presentation.opened(project)
         response = Response(found.rows, headers={"ETag": queries.etag(project)})
-        return checking.reported(self, request, response, lambda: found.contents)
+        return checking.reported(self, request, response, found.checked_files)
 
     @extend_schema(
         operation_id="edit_project",
@@ -250,7 +254,7 @@ class Projects(ResourceViewSet):
             self,
             request,
             response,
-            lambda: queries.contents(saved[0]) if saved else _stored(request, project_id),
+            lambda: checking.files_of(saved[0]) if saved else _stored(request, project_id),
         )
 
     @extend_schema(
@@ -261,12 +265,20 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def check(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Checks the project as it would be with these unsaved files."""
+        """Checks the project as it would be with these unsaved files.
+
+        Robots with macros are looked at in a separate process, which is the user's tools on a server.
+        """
         asked = parsed(s.CheckSerializer, request.data)
-        files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
-        for overlay in asked["files"]:
-            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
-        return checking.reported(self, request, Response({}), lambda: files)
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = checking.files_of(project)
+        typed = {
+            names.file_path(overlay["path"], field="files.path"): overlay["content"].encode()
+            for overlay in asked["files"]
+        }
+        files |= typed
+        robots = checking.robots_of(project, typed)
+        return checking.reported(self, request, Response({}), lambda: files, robots)
 
     @extend_schema(
         operation_id="test_project",
@@ -281,7 +293,8 @@ class Projects(ResourceViewSet):
         No Python of the project runs: tests with leaves that are `real` have the outcome `needs_python`.
         """
         asked = parsed(s.CheckSerializer, request.data)
-        files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = checking.files_of(project)
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
         return checking.tested(self, request, files, Response, with_job=False)
@@ -300,10 +313,7 @@ class Projects(ResourceViewSet):
         """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
-        files = queries.contents(project)
-        built_in = checking.built_in_universe(files, universe or project.universe)
-        asked = {"files": files, "universe": universe, "built_in": built_in, "revision": project.revision}
-        return checking.answered(self, request, "app", Response, **asked)
+        return bundles.answer_with_app(self, request, project, universe)
 
 
 class InspectAction(APIView):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Final
 
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
@@ -11,23 +11,26 @@ from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_sche
 from rest_framework import serializers
 from rest_framework.decorators import action
 from rest_framework.parsers import BaseParser, MultiPartParser
-from rest_framework.response import Response
 
 from backend.accounts.api.requests import user_of
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.file_answers import saved_as
 from backend.core.objects.downloads import is_direct, redirected
 from backend.core.problems import InvalidInputError
+from backend.core.processes.stops import Stop
+from backend.core.readers import reserve
 from backend.core.rest.openapi import DIRECT, IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
 from backend.projects.api import serializers as s
 from backend.projects.api.schema import NOT_SOUND
 from backend.projects.api.views import opened
-from backend.projects.documents import archive, checking
+from backend.projects.documents import archive, bundles, checking, export, python_trees
 from backend.projects.storage import names, queries, writes
 from backend.projects.storage.access import Need
 from backend.workers.aside import unpacking
 from backend.workers.deferred import Deferred
+from backend.workers.jobs import ASK
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,22 +48,15 @@ def download(data: bytes | str, content_type: str, filename: str) -> HttpRespons
     return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
 
 
+ORDERS: Final = (ASK, "bottom-to-top", "top-to-bottom")
+
+
 def flag(request: Request, name: str) -> bool:
     """Returns a boolean parameter of the query."""
     wish = request.query_params.get(name, "false").lower()
     if wish not in {"", "0", "1", "true", "false"}:
         raise InvalidInputError(f"{name} is true or false.", field=name)
     return wish in {"1", "true"}
-
-
-def zipped(name: str, made: dict[str, Any]) -> HttpResponse:
-    """Returns a zip that a worker made."""
-    return download(made["zip"], "application/zip", f"{name}.zip")
-
-
-def packaged(made: dict[str, Any]) -> HttpResponse:
-    """Returns a package that a worker made, under the package's name."""
-    return zipped(made["name"], made)
 
 
 def file_response(file: queries.StoredFile) -> HttpResponse:
@@ -144,7 +140,7 @@ class ProjectFiles(ResourceViewSet):
             request,
             "xml",
             lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
-            files=queries.contents(project),
+            files=checking.files_of(project),
             self_contained=flag(request, "self_contained"),
         )
 
@@ -157,8 +153,8 @@ class ProjectFiles(ResourceViewSet):
     def export(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Returns the current files as a zip. The same revision gives the same bytes."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
-        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
+        headers = {"Content-Type": "application/zip"} | saved_as(f"{project.name}.zip")
+        return export.answer_with_zip(self, request, checking.owner(request), project, headers)
 
     @extend_schema(
         operation_id="get_package",
@@ -176,11 +172,10 @@ class ProjectFiles(ResourceViewSet):
         The answer is 422 with `diagnostics` if the project has errors.
         """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
         if flag(request, "dockerized"):
-            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
+            return bundles.answer_with_zip(self, request, project, "app_zip", filename=project.name)
         name = request.query_params.get("name") or None
-        return checking.answered(self, request, "package", packaged, files=files, name=name)
+        return bundles.answer_with_zip(self, request, project, "package", name=name)
 
     @extend_schema(
         operation_id="get_cpp_package",
@@ -198,8 +193,7 @@ class ProjectFiles(ResourceViewSet):
         """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         name = request.query_params.get("name") or None
-        files = queries.contents(project)
-        return checking.answered(self, request, "cpp_package", packaged, files=files, name=name)
+        return bundles.answer_with_zip(self, request, project, "cpp_package", name=name)
 
     @extend_schema(
         operation_id="get_models",
@@ -228,7 +222,7 @@ class ProjectFiles(ResourceViewSet):
             request,
             job,
             lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}{ending}"),
-            files=queries.contents(project),
+            files=checking.files_of(project),
         )
 
     @extend_schema(
@@ -242,8 +236,7 @@ class ProjectFiles(ResourceViewSet):
         """Lists the files of the ROS 2 package, without making a download."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         name = request.query_params.get("name") or None
-        files = queries.contents(project)
-        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
+        return bundles.answer_with_preview(self, request, project, name)
 
     @extend_schema(
         operation_id="import_project",
@@ -253,6 +246,14 @@ class ProjectFiles(ResourceViewSet):
                 "filename", str, description="The file's name, where the body is the file itself."
             ),
             OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
+            OpenApiParameter("main", str, description="The main tree, or its file; in Python its name."),
+            OpenApiParameter(
+                "order",
+                str,
+                enum=ORDERS,
+                description="The order of children on JdeRobot's canvas, in place of the project's; `ask` "
+                "refuses the project's where only the other one reaches all branches.",
+            ),
         ],
         request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
         responses={201: OpenApiResponse(s.ImportedProjectSerializer)} | NOT_SOUND,
@@ -266,35 +267,74 @@ class ProjectFiles(ResourceViewSet):
         expensive=("POST",),
     )
     def import_project(self, request: Request) -> HttpResponseBase:
-        """Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, or BT.CPP XML.
+        """Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, BT.CPP XML or py_trees.
 
         The body is the file, or a form with the file. A body may be as large as the user's quota permits; a
-        form may be as large as any other request.
+        form may be as large as any other request. A Python file that builds a tree with py_trees is run where
+        the user's robots are read, with limits, to see the tree.
         """
         user = user_of(request)
         data, name = _uploaded(request)
+        main = request.query_params.get("main") or request.POST.get("main", "")
+        order = request.query_params.get("order") or request.POST.get("order", "")
+        if order not in {"", *ORDERS}:
+            raise InvalidInputError(f"order is {', '.join(ORDERS)}.", field="order")
         wants_repair = flag(request, "repair") or request.POST.get("repair") == "true"
 
-        def create(made: dict[str, Any]) -> HttpResponseBase:
-            files: dict[str, bytes] = made["files"]
+        if name.lower().endswith(python_trees.SUFFIX):
+            return self._of_python(request, python_trees.Python(data, name, main))
+
+        def create(files: Mapping[str, Any], proposal: dict[str, Any] | None = None) -> HttpResponseBase:
             return opened(
                 self,
                 request,
                 lambda: writes.create_project(files, acting_user=user, message="Import"),
                 status=201,
-                more={"proposal": made["proposal"]},
+                more={"proposal": proposal, "one_block": ""},
             )
+
+        def translated(done: Future[dict[str, Any]]) -> HttpResponseBase:
+            return create(**checking.accepted(done.result()))
 
         def unpacked(done: Future[Upload]) -> HttpResponseBase:
             upload = done.result()
-            if upload.is_ours:
-                return create({"files": upload.files, "proposal": None})
-            return checking.answered(
-                self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
-            )
+            with upload.spool:
+                if upload.is_ours:
+                    return create(upload.files)
+                # All of it is in memory until the answer has arrived, so it stays counted.
+                reserve(sum(content.size for content in upload.files.values()))
+                asked: dict[str, Any] = {
+                    "files": {path: content.data for path, content in upload.files.items()}
+                }
+                asked |= {"name": upload.name, "repair": wants_repair, "main": main, "order": order}
+            return Deferred(self, request, pool().ask(checking.owner(request), "opened", **asked), translated)
 
         work = unpacking.ask(f"user {user.pk}", partial(archive.read_upload, data, name))
         return Deferred(self, request, work, unpacked)
+
+    def _of_python(self, request: Request, python: python_trees.Python) -> Deferred:
+        """Makes a project from a Python file that builds a tree with py_trees."""
+        user, stop = user_of(request), Stop()
+        work = python_trees.read(user, python, stop)
+
+        def create(done: Future[python_trees.Made]) -> HttpResponseBase:
+            made = done.result()
+            return opened(
+                self,
+                request,
+                lambda: writes.create_project(made.files, acting_user=user, message="Import"),
+                status=201,
+                more={"proposal": None, "one_block": made.one_block},
+            )
+
+        def close() -> None:
+            """Removes what was made, also if the client has left meanwhile."""
+            if work.done() and not work.cancelled() and work.exception() is None:
+                work.result().spool.close()
+
+        answer = Deferred(self, request, work, create, cancel=stop.set)
+        answer.close_with(close)
+        return answer
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:

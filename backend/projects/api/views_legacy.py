@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.http import HttpResponse
@@ -22,8 +21,7 @@ from backend.accounts.api.requests import user_of
 from backend.accounts.models import User
 from backend.core.problems import InvalidInputError
 from backend.core.rest.parsers import StrictJSONParser
-from backend.projects.api.views_files import packaged, zipped
-from backend.projects.documents import checking, templates
+from backend.projects.documents import bundles, templates
 from backend.projects.storage import names, queries, writes
 from backend.projects.storage.changes import Content, FileChange
 
@@ -37,11 +35,11 @@ Parameters = dict[str, str]
 
 
 class Later(NamedTuple):
-    """An answer whose content a worker makes."""
+    """A zip that a worker makes: the arguments of `answer_with_zip`."""
 
-    job: str
-    make: Callable[[dict[str, Any]], HttpResponse]
-    arguments: dict[str, Any]
+    project: Project
+    kind: str
+    options: dict[str, Any]
 
 
 Handler = Callable[[User, Parameters], Response | HttpResponse | Later]
@@ -124,15 +122,13 @@ def delete_file(user: User, asked: Parameters) -> Response:
 
 def generate_app(user: User, asked: Parameters) -> Later:
     """Returns the ROS 2 package of the project."""
-    files = queries.contents(_project(user, asked))
-    return Later("package", packaged, {"files": files, "name": asked.get("app_name") or None})
+    return Later(_project(user, asked), "package", {"name": asked.get("app_name") or None})
 
 
 def get_dockerized_app(user: User, asked: Parameters) -> Later:
     """Returns the app in the form that the manager runs."""
     project = _project(user, asked)
-    name = asked.get("app_name") or project.name
-    return Later("app_zip", partial(zipped, name), {"files": queries.contents(project)})
+    return Later(project, "app_zip", {"filename": asked.get("app_name") or project.name})
 
 
 def _need(asked: Parameters, name: str) -> str:
@@ -162,6 +158,7 @@ class Reading(APIView):
     """An endpoint that only reads. Its method is GET, as in the original."""
 
     handler: Handler | None = None
+    expensive: tuple[str, ...] = ()
 
     @extend_schema(exclude=True)
     def get(self, request: Request) -> HttpResponseBase:
@@ -194,7 +191,7 @@ def _call(view: APIView, handler: Handler | None, request: Request, asked: Param
     assert handler is not None  # noqa: S101 - each address below names one
     answer = handler(user_of(request), asked)
     if isinstance(answer, Later):
-        return checking.answered(view, request, answer.job, answer.make, **answer.arguments)
+        return bundles.answer_with_zip(view, request, answer.project, answer.kind, **answer.options)
     return answer
 
 
@@ -214,6 +211,7 @@ WRITING: Final[tuple[Handler, ...]] = (
     delete_file,
     save_file,
 )
+EXPENSIVE: Final[tuple[Handler, ...]] = (generate_app, get_dockerized_app)
 ALIASES: Final[dict[str, Handler]] = {
     "save_project": save_project_graph,
     "get_simplified_app": get_dockerized_app,
@@ -221,8 +219,11 @@ ALIASES: Final[dict[str, Handler]] = {
 
 
 def _address(name: str, handler: Handler) -> Any:
-    view = Writing if handler in WRITING else Reading
-    return re_path(f"^{name}/?$", view.as_view(handler=staticmethod(handler)))
+    options: dict[str, Any] = {"handler": staticmethod(handler)}
+    if handler in WRITING:
+        return re_path(f"^{name}/?$", Writing.as_view(**options))
+    expensive = ("GET",) if handler in EXPENSIVE else ()
+    return re_path(f"^{name}/?$", Reading.as_view(**options, expensive=expensive))
 
 
 urlpatterns = [

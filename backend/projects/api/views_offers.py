@@ -11,9 +11,11 @@ from rest_framework.views import APIView
 
 from backend.accounts.api.requests import parsed, user_of
 from backend.projects.api.serializers import MAX_REVISION
+from backend.projects.documents import checking
 from backend.projects.storage import offers
 
 if TYPE_CHECKING:
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
     from backend.projects.storage.offers import Offer
@@ -57,16 +59,27 @@ class Offers(APIView):
         responses=OfferListSerializer,
         tags=["projects"],
     )
-    def get(self, request: Request) -> Response:
+    def get(self, request: Request) -> HttpResponseBase:
         """Lists the trees that the user's own projects, and those shared with the user, offer to others.
 
-        The projects are in the order of their last change, without archived ones.
+        The projects are in the order of their last change, without archived ones, and those whose offered
+        trees use more than 256 KB.
         """
         asked = parsed(OffersQuerySerializer, request.query_params.dict())
         end = asked["offset"] + asked["limit"]
-        found, total = offers.offers(user_of(request), asked["offset"], end)
-        items = [_item(offer) for offer in found]
-        return Response({"items": items, "next_offset": end if end < total else None})
+        found = offers.Collecting(user_of(request), asked["offset"], end)
+
+        def next_round() -> HttpResponseBase:
+            if found.texts:
+                return checking.answered(self, request, "uses", read, **found.texts)
+            items = [_item(offer) for offer in found.offers]
+            return Response({"items": items, "next_offset": end if end < found.total else None})
+
+        def read(used: dict[str, Any]) -> HttpResponseBase:
+            found.add(used)
+            return next_round()
+
+        return next_round()
 
 
 def _item(offer: Offer) -> dict[str, Any]:

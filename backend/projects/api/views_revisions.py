@@ -45,10 +45,9 @@ class Revisions(ResourceViewSet):
         """Lists the revisions, the newest first: all, or those that changed one file."""
         asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        limit = asked["limit"]
-        found = queries.history(project, path=asked["path"], before=asked.get("before"), limit=limit + 1)
-        page = found[:limit]
-        following = page[-1].number if len(found) > limit else None
+        page, following = queries.history(
+            project, path=asked["path"], before=asked.get("before"), limit=asked["limit"]
+        )
         return Response({"items": [presentation.revision(row) for row in page], "next_before": following})
 
     @extend_schema(
@@ -89,9 +88,9 @@ class Revisions(ResourceViewSet):
         """Compares a revision with the previous one, or with `against` (0 is the empty project)."""
         asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        newer = queries.files_at(project, number)
+        newer = queries.listed_at(project, number)
         against = asked.get("against", number - 1)
-        older = queries.files_at(project, against) if against else {}
+        older = queries.listed_at(project, against) if against else {}
         older_texts, newer_texts = queries.differing(older, newer)
         return checking.answered(
             self,

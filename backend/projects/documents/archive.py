@@ -1,10 +1,9 @@
-"""Reads zips from untrusted sources."""
+"""Reads zips from untrusted sources. Their contents are unpacked into a temporary file."""
 
 from __future__ import annotations
 
 import stat
-import zipfile
-import zlib
+from contextlib import contextmanager
 from pathlib import PurePosixPath
 from typing import IO, TYPE_CHECKING, Final, NamedTuple
 
@@ -13,17 +12,21 @@ from backend.core.problems import InvalidInputError
 from backend.projects.errors import ArchiveError, QuotaExceededError
 from backend.projects.storage import names
 from backend.projects.storage.manifest import MANIFEST
+from backend.projects.storage.spools import Spool
+from translator.unzip import DAMAGED, ArchiveTooLargeError, chunks, open_zip
 
 if TYPE_CHECKING:
+    import zipfile
     from collections.abc import Iterator
 
-_CHUNK: Final = 256 * 1024
+    from backend.projects.storage.spools import Spooled
+
 XML_SUFFIXES: Final = (".xml", ".btproj")
 _JUNK: Final = ("__MACOSX/", "__pycache__/")
 
 
-def unpack(data: IO[bytes]) -> dict[str, bytes]:
-    """Returns the files of an untrusted zip, by their paths in the new project.
+def unpack(data: IO[bytes], spool: Spool) -> dict[str, Spooled]:
+    """Returns the files of an untrusted zip, by their paths in the new project; `spool` has their contents.
 
     Sizes in headers are not trusted: reading stops at the quota. If all files are in one folder, that folder
     is removed.
@@ -32,25 +35,30 @@ def unpack(data: IO[bytes]) -> dict[str, bytes]:
         ArchiveError: the data are not a zip, or have entries that are not plain files.
         InvalidInputError: the path of an entry is invalid, for example because it leaves the project.
         QuotaExceededError: the zip holds more than a project may.
+        NoRoomError: the temporary files of all users take too much.
+        OSError: the disk is full.
     """
-    try:
-        with zipfile.ZipFile(data) as archive:
-            files = dict(_entries(archive))
-    except (
-        zipfile.BadZipFile,
-        zlib.error,
-        EOFError,
-        NotImplementedError,  # zipfile raises it for an unknown compression
-        RuntimeError,
-        UnicodeError,
-    ) as error:
-        raise ArchiveError(f"This is not a zip that can be read: {error}.", field="file") from error
+    with _said():
+        archive = open_zip(data)
+    with archive:
+        files = dict(_entries(archive, spool))
     if not files:
         raise ArchiveError("The zip holds no files.", field="file")
     return _without_common_folder(files)
 
 
-def _entries(archive: zipfile.ZipFile) -> Iterator[tuple[str, bytes]]:
+@contextmanager
+def _said() -> Iterator[None]:
+    """Reports what is wrong with a zip."""
+    try:
+        yield
+    except ArchiveTooLargeError as error:
+        raise QuotaExceededError(f"The zip holds more than a project may: {error}.", field="file") from error
+    except DAMAGED as error:
+        raise ArchiveError(f"This is not a zip that can be read: {error}.", field="file") from error
+
+
+def _entries(archive: zipfile.ZipFile, spool: Spool) -> Iterator[tuple[str, Spooled]]:
     limits = environment()
     entries = [entry for entry in archive.infolist() if not entry.is_dir() and not _is_junk(entry.filename)]
     if len(entries) > limits.max_project_files:
@@ -67,21 +75,14 @@ def _entries(archive: zipfile.ZipFile) -> Iterator[tuple[str, bytes]]:
             raise ArchiveError(f"“{names.shown(path)}” is a link or a device, not a file.", field="file")
         if entry.flag_bits & 0x1:
             raise ArchiveError("The zip is encrypted.", hint="Make one without a password.", field="file")
-        content = _read(archive, entry, min(left, limits.max_file_bytes))
-        left -= len(content)
+        content = spool.add(_parts(archive, entry, min(left, limits.max_file_bytes)))
+        left -= content.size
         yield path, content
 
 
-def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, limit: int) -> bytes:
-    content = bytearray()
-    with archive.open(entry) as stream:
-        while chunk := stream.read(_CHUNK):
-            content += chunk
-            if len(content) > limit:
-                raise QuotaExceededError(
-                    f"“{names.shown(entry.filename)}” unpacks to more than a project may hold.", field="file"
-                )
-    return bytes(content)
+def _parts(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, most: int) -> Iterator[bytes]:
+    with _said():  # but not what is wrong with the disk to which they are written
+        yield from chunks(archive, entry, most)
 
 
 def _is_junk(name: str) -> bool:
@@ -93,7 +94,7 @@ def _is_junk(name: str) -> bool:
     )
 
 
-def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
+def _without_common_folder(files: dict[str, Spooled]) -> dict[str, Spooled]:
     if MANIFEST in files:
         return files
     folder, slash, _ = next(iter(files)).partition("/")
@@ -106,14 +107,16 @@ class Upload(NamedTuple):
     """An imported project.
 
     Attributes:
-        files: the contents by path.
+        files: the contents by path, until `spool` is closed.
         is_ours: whether the upload is a project of BT Studio; the translator opens others.
         name: the name of the new project, if the content has none.
+        spool: the file with the contents.
     """
 
-    files: dict[str, bytes]
+    files: dict[str, Spooled]
     is_ours: bool
     name: str
+    spool: Spool
 
 
 def _named(name: PurePosixPath) -> str:
@@ -128,14 +131,21 @@ def _named(name: PurePosixPath) -> str:
 def read_upload(data: IO[bytes], filename: str) -> Upload:
     """Returns the files of an upload: a zip of BT Studio, JdeRobot or Groot2, or one XML file.
 
+    The caller closes its spool.
+
     Raises:
-        ArchiveError, InvalidInputError, QuotaExceededError: for the same reasons as `unpack`.
+        ArchiveError, InvalidInputError, QuotaExceededError, NoRoomError, OSError: as `unpack`.
     """
     name = PurePosixPath(filename)
-    if name.suffix.lower() in XML_SUFFIXES:
-        content = data.read(environment().max_file_bytes + 1)
-        if len(content) > environment().max_file_bytes:
+    spool = Spool()
+    try:
+        if name.suffix.lower() not in XML_SUFFIXES:
+            files = unpack(data, spool)
+            return Upload(files, MANIFEST in files, name.stem, spool)
+        content = spool.add([data.read(environment().max_file_bytes + 1)])
+        if content.size > environment().max_file_bytes:
             raise QuotaExceededError(f"“{names.shown(filename)}” is larger than a file may be.", field="file")
-        return Upload({_named(name): content}, is_ours=False, name=name.stem)
-    files = unpack(data)
-    return Upload(files, MANIFEST in files, name.stem)
+        return Upload({_named(name): content}, is_ours=False, name=name.stem, spool=spool)
+    except BaseException:
+        spool.close()
+        raise

@@ -1,31 +1,34 @@
 """The download of all data of one user.
 
 It is a zip with `account.json`, each of the user's projects as the zip of an export, and files of other apps.
-The zip is made in a file, one project after the other, so that it is never completely in memory and occupies
-no thread for long.
+The zip is made in a file, one project after the other and part by part, so that it is never completely in
+memory and occupies no thread for long.
 """
 
 from __future__ import annotations
 
 import json
+import shutil
+import tempfile
 import zipfile
 from collections import deque
 from concurrent.futures import Future
 from contextlib import suppress
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any, cast
 
 from backend.accounts.groups import groups_of
 from backend.accounts.models import AuditEntry
 from backend.core.file_answers import FileAnswer
 from backend.core.scratch import scratch
+from backend.projects.documents.export import Zipping, items_of, write_zip
 from backend.projects.models import ChangeSet, Draft, Project
 from backend.projects.signals import data_asked
-from backend.projects.storage import queries
-from backend.workers import zips
+from backend.workers.aside import packing
 from backend.workers.deferred import Deferred
-from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from uuid import UUID
 
     from django.http.response import HttpResponseBase
@@ -38,18 +41,20 @@ if TYPE_CHECKING:
 
 def write_archive(user: User, file: IO[bytes]) -> None:
     """Writes the zip to the file; waits until each project is packed."""
-    packing = _Packing(user, file)
-    while (project := packing.next()) is not None:
-        packing.add(project, zips.pack(queries.contents(project)))
-    while packing.add_file():
+    made = _Packing(user, file)
+    while (project := made.next()) is not None:
+        with tempfile.TemporaryFile() as zipped:
+            write_zip(items_of(project), zipped)
+            made.add(project, zipped)
+    while made.add_file():
         pass
-    packing.end()
+    made.end()
 
 
 def answer_with_archive(
     view: APIView, request: Request, user: User, headers: dict[str, str]
 ) -> HttpResponseBase:
-    """Answers with the zip; workers pack the projects without blocking a thread.
+    """Answers with the zip; separate threads pack the projects.
 
     Raises:
         AlreadyThereError: a zip is already being made for this user.
@@ -73,20 +78,50 @@ class _Answering:
         self._view, self._request, self._user_id = view, request, user.pk
         self._packing = _Packing(user, file)
         self._file, self._headers = file, headers
+        self._zipping: Zipping | None = None
 
     def following(self) -> HttpResponseBase:
         try:
             return self._following()
         except BaseException:
-            self._packing.give_up()
+            self._give_up()
             raise
 
     def _following(self) -> HttpResponseBase:
         project = self._packing.next()
         if project is None:
             return self._with_files()
-        work = pool().ask(f"user {self._user_id}", "pack", files=queries.contents(project))
-        return Deferred(self._view, self._request, work, lambda done: self._packed(project, done))
+        self._zipping = Zipping(items_of(project), scratch().file(expected=project.size))
+        return self._next_part(project, self._zipping)
+
+    def _next_part(self, project: Project, zipping: Zipping) -> HttpResponseBase:
+        work = zipping.next()
+        if work is not None:
+            return self._after(work, lambda: self._next_part(project, zipping))
+        return self._after(partial(self._packing.add, project, zipping.file), self._added)
+
+    def _added(self) -> HttpResponseBase:
+        if self._zipping is not None:
+            self._zipping.file.close()
+        return self._following()
+
+    def _after(self, work: Callable[[], None], following: Callable[[], HttpResponseBase]) -> Deferred:
+        """Answers with what follows a piece of work, which a separate thread does."""
+
+        def done(future: Future[None]) -> HttpResponseBase:
+            try:
+                future.result()
+                return following()
+            except BaseException:
+                self._give_up()
+                raise
+
+        return Deferred(self._view, self._request, packing.ask(f"user {self._user_id}", work), done)
+
+    def _give_up(self) -> None:
+        if self._zipping is not None:
+            self._zipping.give_up()
+        self._packing.give_up()
 
     def _with_files(self) -> HttpResponseBase:
         """Adds a file, then lets other requests have the thread; answers after the last one."""
@@ -100,14 +135,6 @@ class _Answering:
             self._packing.give_up()
             raise
         return FileAnswer(self._file, headers=self._headers)
-
-    def _packed(self, project: Project, done: Future[Any]) -> HttpResponseBase:
-        try:
-            self._packing.add(project, done.result()["zip"])
-        except BaseException:
-            self._packing.give_up()
-            raise
-        return self.following()
 
 
 class _Packing:
@@ -133,10 +160,12 @@ class _Packing:
                 return project
         return None
 
-    def add(self, project: Project, packed: bytes) -> None:
+    def add(self, project: Project, packed: IO[bytes]) -> None:
         """Adds a packed project without compressing it again."""
         place = "deleted" if project.deleted_at else "projects"
-        self._zip.writestr(f"{place}/{project.name} ({project.id}).zip", packed)
+        packed.seek(0)
+        with self._zip.open(f"{place}/{project.name} ({project.id}).zip", "w", force_zip64=True) as member:
+            shutil.copyfileobj(packed, member)
 
     def add_file(self) -> bool:
         """Adds the next file of another app; returns False if there is none."""

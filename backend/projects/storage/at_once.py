@@ -31,6 +31,8 @@ FILES: Final = 20
 
 For each number of files, PostgreSQL plans another statement.
 """
+BYTES: Final = 16 * 1024 * 1024
+"""The largest contents of one statement, which are in memory together."""
 
 _CHANGE: Final = ("project", "number", "author", "message", "label", "created_at")
 _BLOB: Final = ("sha256", "size", "data")
@@ -50,8 +52,9 @@ def is_here() -> bool:
 
 
 def has_room(writing: Writing) -> bool:
-    """Returns whether the change has few enough files for one statement."""
-    return max(len(writing.drafts), len(writing.revisions)) <= FILES
+    """Returns whether the change has few and small enough files for one statement."""
+    is_small = sum(content.size for content in writing.blobs) <= BYTES
+    return is_small and max(len(writing.drafts), len(writing.revisions)) <= FILES
 
 
 def locked(project_id: UUID) -> Project | None:
@@ -93,7 +96,7 @@ def write(writing: Writing) -> None:
             ChangeSet, _CHANGE, [[getattr(change, _field(ChangeSet, name).attname) for name in _CHANGE]]
         ),
         # Blobs are written in one order, so that two saves of the same blobs cannot deadlock.
-        *_values(Blob, _BLOB, sorted(writing.blobs)),
+        *_values(Blob, _BLOB, sorted((blob.sha256, blob.size, blob.data) for blob in writing.blobs)),
         *_values(FileRevision, _REVISION, writing.revisions),
         *_values(CurrentFile, _FILE, files),
         *([project.pk, change.author_id, *writing.drafts] if writing.drafts else []),

@@ -13,18 +13,19 @@ from backend.core.objects.errors import ObjectMissingError
 from backend.core.objects.store import as_file, new_key, the_store, written_store
 from backend.core.problems import StudioError
 from backend.projects.models import Blob
+from backend.projects.storage.changes import Stored
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
-    from backend.projects.storage.changes import Content
+    from backend.projects.storage.changes import Source
 
 FOLDER: Final = "blobs/"
 
 
 @contextmanager
 def placed(
-    contents: Iterable[Content | None], may_write: Callable[[], object]
+    contents: Iterable[Source | Stored | None], may_write: Callable[[], object]
 ) -> Iterator[Mapping[str, str]]:
     """Uploads the large ones of these contents; the block commits the rows that name them.
 
@@ -36,7 +37,8 @@ def placed(
 
     Yields the names of the new objects, by the hashes of the contents.
     """
-    large = {one.sha256: one for one in contents if one is not None and written_store(one.size)}
+    new = (one for one in contents if one is not None and not isinstance(one, Stored))
+    large = {one.sha256: one for one in new if written_store(one.size)}
     if not large:
         yield {}
         return

@@ -1,7 +1,7 @@
 """Limits of the trees of a project. A project that already exceeds a limit may shrink but must not grow.
 
 Parsing diagrams at each save would be slow. So nodes are counted exactly only if two estimates permit too
-many nodes: the size in bytes, and the number of occurrences of a mark that each node contains.
+many nodes: the size in bytes, and the number of braces, of which each node has one however it is written.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from backend.projects.storage import cache, names
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from backend.projects.storage.changes import Existing, Plan
+    from backend.projects.storage.changes import Existing, Plan, Source
 
 NODE_BYTES: Final = len('"n":{"type":"A"}')
 """The smallest size of a node in bytes."""
-MARK: Final = b'"type"'
+MARK: Final = b"{"
 
 
 class _Tree(NamedTuple):
@@ -40,7 +40,7 @@ def require_bounded(current: Mapping[str, Existing], result: Plan) -> None:
     _require(len(after), len(before), "trees_per_project", "trees")
     size, old_size = (sum(tree.size for tree in trees) for trees in (after, before))
     _require(size, old_size, "diagram_bytes_per_project", "bytes of trees")
-    contents = _Contents({w.sha256: w.content.data for w in result.written if w.content is not None})
+    contents = _Contents({w.sha256: w.content for w in result.written if w.content is not None})
     _require_nodes(before, after, contents)
 
 
@@ -69,7 +69,7 @@ def _require(number: int, before: int, limit: str, what: str) -> None:
 class _Contents:
     """The bytes of diagrams, and their numbers of nodes."""
 
-    def __init__(self, written: Mapping[str, bytes]) -> None:
+    def __init__(self, written: Mapping[str, Source]) -> None:
         self._written = written
         self._nodes: dict[str, int] = {}
 
@@ -90,7 +90,7 @@ class _Contents:
 
     def _data(self, tree: _Tree) -> bytes:
         written = self._written.get(tree.sha256)
-        return cache.contents([tree.sha256])[tree.sha256] if written is None else written
+        return cache.contents([tree.sha256])[tree.sha256] if written is None else written.data
 
 
 def _nodes(data: bytes) -> int:

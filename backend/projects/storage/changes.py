@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from backend.core.problems import InvalidInputError
 from backend.projects.storage import names
@@ -18,9 +18,33 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 
+class Source(Protocol):
+    """Bytes with the hash by which they are stored; they may be read from a file each time."""
+
+    @property
+    def sha256(self) -> str:
+        """The hash."""
+
+    @property
+    def size(self) -> int:
+        """The number of bytes."""
+
+    @property
+    def data(self) -> bytes:
+        """The bytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stored:
+    """A content that a current or old file of some project has, so that its bytes need not be written."""
+
+    sha256: str
+    size: int
+
+
 @dataclass(frozen=True, slots=True)
 class Content:
-    """Bytes with the hash by which they are stored."""
+    """Bytes in memory with the hash by which they are stored."""
 
     data: bytes = field(repr=False)
     sha256: str = ""
@@ -38,7 +62,7 @@ class FileChange:
 
     path: str
     base_revision: int
-    content: Content | None = None
+    content: Source | Stored | None = None
     delete: bool = False
     rename_to: str = ""
 
@@ -60,7 +84,7 @@ class Written:
     path: str
     sha256: str
     size: int
-    content: Content | None
+    content: Source | None
     renamed_from: str = ""
 
 
@@ -112,18 +136,21 @@ def plan(current: Mapping[str, Existing], wanted: Sequence[FileChange]) -> Plan:
         elif change.rename_to and change.rename_to != change.path:
             assert existing is not None  # noqa: S101 - else it is a conflict
             removed.append(change.path)
-            content = change.content
-            sha256, size = (content.sha256, content.size) if content else (existing.sha256, existing.size)
-            written.append(Written(change.rename_to, sha256, size, content, renamed_from=change.path))
+            content = change.content or Stored(existing.sha256, existing.size)
+            written.append(_written(change.rename_to, content, renamed_from=change.path))
         elif change.content and (existing is None or existing.sha256 != change.content.sha256):
-            content = change.content
-            written.append(Written(change.path, content.sha256, content.size, content))
+            written.append(_written(change.path, change.content))
     if conflicts:
         return Plan(conflicts=tuple(conflicts))
     taken = {w.path for w in written}
     result = Plan(tuple(written), tuple(path for path in removed if path not in taken))
     _refuse_collisions(current, Plan(tuple(written), tuple(removed)))
     return result
+
+
+def _written(path: str, content: Source | Stored, *, renamed_from: str = "") -> Written:
+    source = None if isinstance(content, Stored) else content
+    return Written(path, content.sha256, content.size, source, renamed_from)
 
 
 def _conflict(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-_SAYS: Final = re.compile(rb"""^[ \t]+NODE_KIND\b[^=\n]*=\s*["']Condition["']""", re.MULTILINE)
+_SAYS: Final = re.compile(rb"""^[ \t]+NODE_KIND\b[^=\n]*=\s*["'](\w+)["']""", re.MULTILINE)
 _NAME: Final = re.compile(r"[A-Za-z_]\w{0,99}")
 
 
@@ -27,7 +27,7 @@ def action_paths(diagram: dict[str, Any] | None) -> dict[str, str]:
 def conditions(diagram: dict[str, Any] | None, source: Callable[[str], bytes | None]) -> list[str]:
     """Returns the types of the tree that are conditions; `source` reads a file of the project."""
     paths = action_paths(diagram)
-    return [name for name, path in paths.items() if _SAYS.search(source(path) or b"")]
+    return [name for name, path in paths.items() if _SAYS.findall(source(path) or b"")[-1:] == [b"Condition"]]
 
 
 def all_paths(diagrams: Iterable[dict[str, Any]]) -> set[str]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from django.db import transaction
+from django.db.models.functions import Length
 from django.utils import timezone
 
 from backend.config.environment import environment
-from backend.projects.errors import matches
+from backend.projects.errors import QuotaExceededError, matches
 from backend.projects.models import Draft
 from backend.projects.storage import names, queries
 from backend.projects.storage.access import Need
@@ -30,13 +31,21 @@ def save_draft(  # noqa: PLR0913 - a draft's columns
 
     Raises:
         PreconditionFailedError: `if_match` is not the ETag of the existing draft.
-        QuotaExceededError: the text is larger than a file may be.
+        QuotaExceededError: the text, or all drafts of the user in the project, are larger than a file may be.
     """
     project = queries.project(project_id, user=acting_user, need=Need.WRITE, lock=True)
     path = names.writable_path(path)
+    rows = Draft.objects.filter(project=project, author=acting_user).defer("content")
+    drafts = {row.path: row for row in rows.annotate(size=Length("content"))}
+    before = drafts.pop(path, None)
     if len(content.encode()) > environment().max_file_bytes:
         raise too_large(path)
-    before = Draft.objects.filter(project=project, author=acting_user, path=path).first()
+    if sum(row.size for row in drafts.values()) + len(content) > environment().max_file_bytes:
+        raise QuotaExceededError(
+            "Your unsaved texts in this project are larger than a file may be.",
+            hint="Save some of them, or discard them.",
+            field="content",
+        )
     matches(if_match, queries.draft_etag(before), CHANGED)
     draft = before or Draft(project=project, author=acting_user, path=path)
     draft.base_revision, draft.content, draft.updated_at = base_revision, content, timezone.now()

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from django.db.models import BinaryField, BooleanField, Exists, F, Func, OuterRef, Q, Value
+from django.db.models import BinaryField, BooleanField, Case, Count, Exists, F, Func, OuterRef, Q, Value, When
 
+from backend.core.readers import reserve
 from backend.projects.models import CurrentFile
 from backend.projects.storage import cache, queries
+from backend.workers.offered import OFFERED, uses
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
     from uuid import UUID
 
     from django.db.models import QuerySet
@@ -21,11 +22,12 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
     from backend.projects.models import Project
 
-OFFERED: Final = "_bts_offered"
-"""The attribute of a tree that offers it; its value is "1"."""
+LARGEST: Final = 256 * 1024
+"""Bytes of all files of one project's offers; a project whose offered trees use more is not in the list."""
+MOST_FILES: Final = 1000
+"""The largest number of trees and actions of a project in the list."""
 _TREE: Final = re.compile(r"trees/([^/]+)\.json")
-_ACTION: Final = re.compile(r"actions/([^/]+)\.py")
-_WORD: Final = re.compile(r"\w+")
+_KINDS: Final = Q(path__startswith="trees/") | Q(path__startswith="actions/")
 
 
 class _Holds(Func):
@@ -51,83 +53,144 @@ class Offer:
     files: dict[str, str]
 
 
+_MARKED: Final = Q(blob__size__lte=LARGEST, path__startswith="trees/") & (
+    Q(_Holds(F("blob__data"), Value(OFFERED.encode(), output_field=BinaryField())))
+    # The database cannot search a tree that is in the object store.
+    | Q(blob__stored_at__isnull=False)
+)
+
+
 def offering(user: User) -> QuerySet[Project]:
     """Returns the user's own and shared projects that may offer a tree, the newest first."""
-    trees = CurrentFile.objects.filter(project=OuterRef("pk"), path__startswith="trees/")
-    holds = _Holds(F("blob__data"), Value(OFFERED.encode(), output_field=BinaryField()))
-    # The database cannot search a tree that is in the object store.
-    marked = trees.filter(Q(holds) | Q(blob__stored_at__isnull=False))
-    return queries.projects(user=user).filter(Exists(marked))
+    return queries.projects(user=user).filter(
+        Exists(CurrentFile.objects.filter(_MARKED, project=OuterRef("pk")))
+    )
+
+
+class Collecting:
+    """Finds the offers of a page of projects in rounds: what one round reads names the files of the next.
+
+    `texts` are the files of a round; they are read by `uses`, in the pool, whose answer is given to `add`. If
+    there are none, `offers` are complete. Of each project at most `LARGEST` bytes are read.
+    """
+
+    def __init__(self, user: User, start: int, end: int) -> None:
+        found, self.total = queries.page(offering(user), start, end, user=user)
+        reserve(LARGEST * len(found))
+        self.texts: dict[str, dict[str, str]] = {}
+        files = _listed(found) if found else {}
+        self._projects = [_Reading(project, files[project.id]) for project in found if project.id in files]
+        self._fetch()
+
+    @property
+    def offers(self) -> list[Offer]:
+        """The offers, in the order of the projects."""
+        return [reading.offer() for reading in self._projects if reading.offered]
+
+    def add(self, found: Mapping[str, Any]) -> None:
+        """Takes what the texts of this round name, and fetches the files that are needed next."""
+        for number, reading in enumerate(self._projects):
+            for path in reading.wanted:
+                key = f"{number}/{path}"
+                if key in found["used"]:
+                    reading.add(path, found["used"][key], is_offered=key in found["offered"])
+            reading.advance()
+        self._fetch()
+
+    def _fetch(self) -> None:
+        data = cache.contents(
+            reading.files[path].sha256 for reading in self._projects for path in reading.wanted
+        )
+        self.texts = {"trees": {}, "actions": {}}
+        for number, reading in enumerate(self._projects):
+            for path in reading.wanted:
+                text = queries.as_text(data[reading.files[path].sha256])
+                if text is not None:
+                    reading.texts[path] = text
+                    kind = "trees" if _TREE.fullmatch(path) else "actions"
+                    self.texts[kind][f"{number}/{path}"] = text
+        if not any(self.texts.values()):
+            self.texts = {}
+
+
+class _File(NamedTuple):
+    sha256: str
+    size: int
+    is_marked: bool
+    """Whether it may be a tree that is offered."""
+
+
+class _Reading:
+    """The files of one project that are read for its offers.
+
+    Attributes:
+        wanted: the files of this round.
+        texts: those that were read.
+        offered: the trees that are offered; none if they use too much.
+    """
+
+    def __init__(self, project: Project, files: Mapping[str, _File]) -> None:
+        self._project, self.files = project, files
+        self._uses: dict[str, set[str]] = {}
+        self._left = LARGEST
+        self._asked: set[str] = set()
+        self.texts: dict[str, str] = {}
+        self.offered: list[str] = []
+        self.wanted: list[str] = []
+        self._want([path for path, file in files.items() if file.is_marked and _TREE.fullmatch(path)])
+
+    def offer(self) -> Offer:
+        """Returns the offered trees with all files that they use."""
+        paths = sorted(path for path in self._reached() if path in self.texts)
+        return Offer(self._project, self.offered, {path: self.texts[path] for path in paths})
+
+    def add(self, path: str, used: Iterable[str], *, is_offered: bool) -> None:
+        """Takes what a file names; an action uses each other action that its text names."""
+        tree = _TREE.fullmatch(path)
+        paths = set(used) if tree else {f"actions/{word}.py" for word in used}
+        self._uses[path] = paths & self.files.keys()
+        if tree and is_offered:
+            self.offered.append(tree[1])
+
+    def advance(self) -> None:
+        """Chooses the files of the next round: what is used and was not read."""
+        self._want(sorted(self._reached() - self._asked))
+
+    def _want(self, paths: list[str]) -> None:
+        self._asked.update(paths)
+        self._left -= sum(self.files[path].size for path in paths)
+        self.wanted = paths
+        if self._left < 0:
+            self.wanted, self.offered = [], []
+
+    def _reached(self) -> set[str]:
+        found: set[str] = set()
+        waiting = [f"trees/{name}.json" for name in self.offered]
+        while waiting:
+            path = waiting.pop()
+            if path not in found:
+                found.add(path)
+                waiting += self._uses.get(path, ())
+        return found
 
 
 def offers(user: User, start: int, end: int) -> tuple[list[Offer], int]:
     """Returns the offers of these projects, and the number of all projects that may have one."""
-    found, total = queries.page(offering(user), start, end, user=user)
-    files = _files(found)
-    rows = (_offer(project, files.get(project.id, {})) for project in found)
-    return [row for row in rows if row.trees], total
+    collecting = Collecting(user, start, end)
+    while collecting.texts:
+        collecting.add(uses(**collecting.texts))
+    return collecting.offers, collecting.total
 
 
-def _files(projects: list[Project]) -> dict[UUID, dict[str, str]]:
-    """Returns the texts of the trees and actions of these projects."""
-    kinds = Q(path__startswith="trees/") | Q(path__startswith="actions/")
-    rows = CurrentFile.objects.filter(kinds, project__in=projects).order_by("path")
-    fields = list(rows.values_list("project_id", "path", "blob_id"))
-    data = cache.contents(blob for _, _, blob in fields)
-    files: dict[UUID, dict[str, str]] = {}
-    for project, path, blob in fields:
-        text = queries.as_text(data[blob])
-        if text is not None:
-            files.setdefault(project, {})[path] = text
+def _listed(projects: list[Project]) -> dict[UUID, dict[str, _File]]:
+    """Returns the trees and actions of each of these projects that has not too many."""
+    rows = CurrentFile.objects.filter(_KINDS, project__in=projects)
+    counts = rows.values_list("project").annotate(number=Count("id"))
+    files: dict[UUID, dict[str, _File]] = {project: {} for project, number in counts if number <= MOST_FILES}
+    listed = rows.filter(project__in=list(files)).annotate(
+        marked=Case(When(_MARKED, then=True), default=False)
+    )
+    columns = ("project", "path", "blob", "blob__size", "marked")
+    for project, path, *fields in listed.order_by("path").values_list(*columns):
+        files[project][path] = _File(*fields)
     return files
-
-
-def _offer(project: Project, files: Mapping[str, str]) -> Offer:
-    trees = {
-        match[1]: _nodes_and_offer(text) for path, text in files.items() if (match := _TREE.fullmatch(path))
-    }
-    offered = [name for name, (_, is_offered) in trees.items() if is_offered]
-    uses = {name: used for name, (used, _) in trees.items()}
-    paths = _used(offered, uses, files)
-    return Offer(project, offered, {path: files[path] for path in sorted(paths)})
-
-
-def _used(offered: list[str], uses: Mapping[str, set[str]], files: Mapping[str, str]) -> set[str]:
-    """Returns the files of these trees, and all that they use.
-
-    An action uses each other action that its text names. The result may contain a file too many, but never
-    lacks one.
-    """
-    actions = {match[1]: path for path in files if (match := _ACTION.fullmatch(path))}
-    found: set[str] = set()
-    waiting = [f"trees/{name}.json" for name in offered]
-    while waiting:
-        path = waiting.pop()
-        if path in found or path not in files:
-            continue
-        found.add(path)
-        if match := _TREE.fullmatch(path):
-            waiting += uses[match[1]]
-        else:
-            waiting += (actions[word] for word in set(_WORD.findall(files[path])) if word in actions)
-    return found
-
-
-def _nodes_and_offer(text: str) -> tuple[set[str], bool]:
-    """Returns the files that a tree's blocks name, and whether the tree is offered."""
-    try:
-        diagram = json.loads(text)
-    except (ValueError, RecursionError):
-        return set(), False
-    if not isinstance(diagram, dict):
-        return set(), False
-    nodes, attributes = diagram.get("nodes"), diagram.get("attributes")
-    found = nodes.values() if isinstance(nodes, dict) else ()
-    blocks = [node for node in found if isinstance(node, dict)]
-    paths = {
-        f"trees/{node.get('tree')}.json"
-        if node.get("type") == "SubTree"
-        else f"actions/{node.get('type')}.py"
-        for node in blocks
-    }
-    return paths, isinstance(attributes, dict) and attributes.get(OFFERED) == "1"

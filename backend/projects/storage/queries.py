@@ -5,21 +5,32 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, TypeVar
 
-from django.db.models import F, Max, Q, QuerySet
+from django.db.models import (
+    Count,
+    Exists,
+    F,
+    Max,
+    OuterRef,
+    Q,
+    QuerySet,
+    Subquery,
+    prefetch_related_objects,
+)
 from django.db.models.functions import Lower
 
 from backend import __version__
 from backend.core.problems import NotFoundError
+from backend.core.readers import reserve
 from backend.projects.choices import Role
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
-from backend.projects.storage import access, blobs, cache, names, rows
+from backend.projects.storage import access, cache, names, rows
 from backend.projects.storage.access import Need
 from backend.projects.storage.conditions import all_paths, conditions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
     from datetime import datetime
     from uuid import UUID
 
@@ -32,6 +43,18 @@ LARGEST_DRAWN: Final = 256 * 1024
 Larger trees would make the list take seconds.
 """
 
+LARGEST_SOURCE: Final = 64 * 1024
+"""The largest action, in bytes, that is read to see whether a block of a card is a condition."""
+DRAWN: Final = 4 * 1024 * 1024
+"""Bytes of all trees, and of all actions, that are read for one list; further projects have no picture."""
+
+LISTED_FILES: Final = 10_000
+"""The largest number of files on one page of a history."""
+LARGEST_COMPARED: Final = 1024 * 1024
+"""The largest file, in bytes, whose differences are shown line by line."""
+COMPARED: Final = 16 * 1024 * 1024
+"""Bytes of all files, of both states, whose differences are shown line by line."""
+_Key = TypeVar("_Key")
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
 
@@ -50,6 +73,16 @@ class StoredFile:
     def text(self) -> str | None:
         """The content as text, or None if it is not text."""
         return as_text(self.data)
+
+
+class ListedFile(NamedTuple):
+    """A file without its bytes."""
+
+    path: str
+    revision: int
+    sha256: str
+    updated_at: datetime
+    size: int
 
 
 def as_text(data: bytes) -> str | None:
@@ -147,9 +180,11 @@ def page(rows: QuerySet[Project], start: int, end: int, *, user: User) -> tuple[
     return [row for row in found if row.role != Role.NONE], total
 
 
-def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
-    """Returns the main tree of each project that has a valid one."""
-    blobs = rows.root_trees([project.id for project in found], LARGEST_DRAWN)
+def root_diagrams(found: Sequence[Project]) -> dict[UUID, dict[str, Any]]:
+    """Returns the main tree of each project that has a valid one, up to `DRAWN` bytes of all."""
+    ids = [project.id for project in found]
+    trees = rows.root_trees(ids, LARGEST_DRAWN)
+    blobs = _within({project_id: trees[project_id] for project_id in ids if project_id in trees})
     data = cache.contents(blobs.values())
     diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
     return {project_id: diagram for project_id, diagram in diagrams.items() if diagram is not None}
@@ -158,12 +193,24 @@ def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
 def conditions_of(diagrams: Mapping[UUID, dict[str, Any]]) -> dict[UUID, list[str]]:
     """Returns, for each project, the types of its tree that its own code defines as conditions."""
     paths = sorted(all_paths(diagrams.values()))
-    blobs = rows.action_blobs(list(diagrams), paths) if paths else {}
+    blobs = _within(rows.action_blobs(list(diagrams), paths, LARGEST_SOURCE)) if paths else {}
     data = cache.contents(blobs.values())
     files: dict[UUID, dict[str, bytes]] = {project: {} for project in diagrams}
     for (project, path), blob in blobs.items():
         files[project][path] = data[blob]
     return {project: conditions(diagram, files[project].get) for project, diagram in diagrams.items()}
+
+
+def _within(sized: Mapping[_Key, tuple[str, int]]) -> dict[_Key, str]:
+    """Returns the blobs of the first of these files, up to `DRAWN` bytes; equal files count once."""
+    left, taken, found = DRAWN, set[str](), dict[_Key, str]()
+    for key, (blob, size) in sized.items():
+        left -= 0 if blob in taken else size
+        if left < 0:
+            break
+        taken.add(blob)
+        found[key] = blob
+    return found
 
 
 def root_diagram(data: bytes) -> dict[str, Any] | None:
@@ -187,24 +234,53 @@ def existing_files(project: Project) -> dict[str, Existing]:
     return cache.files(project) or rows.existing(project)
 
 
-def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
-    """Returns the current files with their bytes, ordered by path.
-
-    Without `paths` they are all files; one or two queries are needed.
-    """
+def listed_files(project: Project, paths: Sequence[str] | None = None) -> list[ListedFile]:
+    """Returns the current files without their bytes, ordered by path: all, or those of `paths`."""
     rows = CurrentFile.objects.filter(project=project)
     if paths is not None:
         rows = rows.filter(path__in=paths)
-    fields = list(rows.order_by("path").values_list("path", "revision", "blob_id", "updated_at"))
-    data = cache.contents(row[2] for row in fields)
-    return {row[0]: StoredFile(*row, data=data[row[2]]) for row in fields}
+    columns = ("path", "revision", "blob_id", "updated_at", "blob__size")
+    return [ListedFile(*row) for row in rows.order_by("path").values_list(*columns)]
 
 
-def contents(project: Project) -> dict[str, bytes]:
-    """Returns the bytes of the current files by path, as the translator expects them."""
+def data_of(files: Sequence[ListedFile | Existing]) -> dict[str, bytes]:
+    """Returns the bytes of files by path, in at most one query.
+
+    Raises:
+        ReadersBusyError: too many answers are not read yet.
+    """
+    reserve(sum(file.size for file in files))
+    data = cache.contents(file.sha256 for file in files)
+    return {file.path: data[file.sha256] for file in files}
+
+
+def fetched(files: Sequence[ListedFile]) -> dict[str, StoredFile]:
+    """Returns files with their bytes, like `data_of`."""
+    data = data_of(files)
+    return {
+        file.path: StoredFile(file.path, file.revision, file.sha256, file.updated_at, data[file.path])
+        for file in files
+    }
+
+
+def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
+    """Returns the current files with their bytes, ordered by path: all, or those of `paths`.
+
+    One or two queries are needed.
+    """
+    return fetched(listed_files(project, paths))
+
+
+def contents(project: Project, only: tuple[str, ...] = ("",)) -> dict[str, bytes]:
+    """Returns the bytes of the current files by path, as the translator expects them.
+
+    Args:
+        project: the project.
+        only: beginnings of paths; other files are there without their bytes.
+    """
     files = existing_files(project)
-    data = cache.contents(file.sha256 for file in files.values())
-    return {path: data[files[path].sha256] for path in sorted(files)}
+    data = data_of([file for path, file in files.items() if path.startswith(only)])
+    return {path: data.get(path, b"") for path in sorted(files)}
 
 
 def change_set(project: Project, number: int) -> ChangeSet:
@@ -217,57 +293,81 @@ def change_set(project: Project, number: int) -> ChangeSet:
 
 def history(
     project: Project, *, path: str = "", before: int | None = None, limit: int = 100
-) -> list[ChangeSet]:
-    """Returns change sets with their files, the newest first: all, or those that changed the file `path`."""
-    rows = ChangeSet.objects.filter(project=project).select_related("author").prefetch_related("files")
+) -> tuple[list[ChangeSet], int | None]:
+    """Returns change sets with their files, the newest first: all, or those that changed the file `path`.
+
+    A page ends before `limit` if its change sets have too many files. The second value is the number before
+    which the next page begins, if there is one.
+    """
+    rows = ChangeSet.objects.filter(project=project).select_related("author")
     if path:
-        rows = rows.filter(files__path=path)
+        rows = rows.filter(Exists(FileRevision.objects.filter(change=OuterRef("pk"), path=path)))
     if before is not None:
         rows = rows.filter(number__lt=before)
-    return list(rows.order_by("-number")[:limit])
+    files = FileRevision.objects.filter(change=OuterRef("pk")).order_by().values("change")
+    number = files.annotate(number=Count("id")).values("number")
+    found = list(rows.annotate(files_number=Subquery(number)).order_by("-number")[: limit + 1])
+    page: list[Any] = found[:limit]
+    left = LISTED_FILES
+    for index, change in enumerate(page):
+        left -= change.files_number or 0
+        if left < 0 and index:
+            page = page[:index]
+            break
+    prefetch_related_objects(page, "files")
+    return page, page[-1].number if len(page) < len(found) else None
 
 
-def files_at(project: Project, number: int, paths: Sequence[str] | None = None) -> Mapping[str, StoredFile]:
-    """Returns the files as they were after change set `number`."""
+def listed_at(project: Project, number: int, paths: Sequence[str] | None = None) -> dict[str, ListedFile]:
+    """Returns the files as they were after change set `number`, without their bytes."""
     change_set(project, number)
     rows = FileRevision.objects.filter(change__project=project, change__number__lte=number)
     if paths is not None:
         rows = rows.filter(path__in=paths)
     newest = rows.values("path").annotate(newest=Max("change__number")).values_list("path", "newest")
     wanted = dict(newest)
-    found = (
-        FileRevision.objects.filter(
-            change__project=project,
-            change__number__in=set(wanted.values()),
-            path__in=wanted,
-            blob__isnull=False,
-        )
-        .order_by("path")
-        .values_list(
-            *("path", "change__number", "blob_id", "change__created_at"), "blob__data", "blob__stored_at"
-        )
-    )
-    return {
-        path: StoredFile(path, number, sha256, at, blobs.bytes_of(sha256, data, stored_at))
-        for path, number, sha256, at, data, stored_at in found
-        if wanted[path] == number
-    }
+    found = FileRevision.objects.filter(
+        change__project=project,
+        change__number__in=set(wanted.values()),
+        path__in=wanted,
+        blob__isnull=False,
+    ).order_by("path")
+    columns = ("path", "change__number", "blob_id", "change__created_at", "blob__size")
+    listed = (ListedFile(*row) for row in found.values_list(*columns))
+    return {file.path: file for file in listed if wanted[file.path] == file.revision}
+
+
+def files_at(project: Project, number: int, paths: Sequence[str] | None = None) -> Mapping[str, StoredFile]:
+    """Returns the files as they were after change set `number`."""
+    return fetched(list(listed_at(project, number, paths).values()))
 
 
 def differing(
-    older: Mapping[str, StoredFile], newer: Mapping[str, StoredFile]
+    older: Mapping[str, ListedFile], newer: Mapping[str, ListedFile]
 ) -> tuple[dict[str, str | None], dict[str, str | None]]:
-    """Returns the files that differ, for each state, as text; None stands for a file that is not text."""
-    paths = [
+    """Returns the files that differ, for each state, as text.
+
+    None stands for a file that is not text, or is too large to be compared.
+    """
+    paths = sorted(
         path
         for path in {*older, *newer}
         if path not in older or path not in newer or older[path].sha256 != newer[path].sha256
-    ]
-    return _texts(older, paths), _texts(newer, paths)
-
-
-def _texts(files: Mapping[str, StoredFile], paths: Iterable[str]) -> dict[str, str | None]:
-    return {path: files[path].text for path in sorted(paths) if path in files}
+    )
+    left, compared = COMPARED, list[ListedFile]()
+    for path in paths:
+        versions = [state[path] for state in (older, newer) if path in state]
+        size = sum(file.size for file in versions)
+        if all(file.size <= LARGEST_COMPARED for file in versions) and size <= left:
+            left -= size
+            compared += versions
+    reserve(COMPARED - left)
+    data = cache.contents(file.sha256 for file in compared)
+    older_texts, newer_texts = (
+        {path: as_text(data.get(state[path].sha256, b"\0")) for path in paths if path in state}
+        for state in (older, newer)
+    )
+    return older_texts, newer_texts
 
 
 def file_at(project: Project, number: int, path: str) -> StoredFile:

@@ -19,19 +19,23 @@ from backend.projects.storage.at_once import BLOBS
 from backend.projects.storage.changes import Existing
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from uuid import UUID
+
+    from backend.projects.storage.changes import Source
 
 ROWS: Final = 200
 """The largest number of rows in one statement, since databases limit the number of parameters."""
+PART_BYTES: Final = 8 * 1024 * 1024
+"""Bytes of the contents that are written at once; one may be larger."""
 
 
 class Writing(NamedTuple):
     """The rows that a change set writes."""
 
     change: ChangeSet
-    blobs: Sequence[tuple[str, int, bytes]]
-    """Hash, size and bytes of each content that is stored in the database."""
+    blobs: Sequence[Source]
+    """The contents that are stored in the database."""
     revisions: Sequence[tuple[str, str | None, str]]
     """Path, blob and earlier path of each changed file."""
     files: Sequence[tuple[str, str, str]]
@@ -66,17 +70,21 @@ def existing(project: Project) -> dict[str, Existing]:
     return {row[0]: Existing(*row) for row in rows}
 
 
-def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, str]:
-    """Returns the blob of the main tree of each of these projects, if it has at most `largest` bytes."""
+def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, tuple[str, int]]:
+    """Returns blob and size of the main tree of each of these projects, if it has at most `largest` bytes."""
     path = Concat(Value("trees/"), F("project__main_tree"), Value(".json"))
     found = CurrentFile.objects.filter(project__in=projects, path=path, blob__size__lte=largest)
-    return dict(found.values_list("project_id", "blob_id"))
+    rows = found.values_list("project_id", "blob_id", "blob__size")
+    return {project: (blob, size) for project, blob, size in rows}
 
 
-def action_blobs(projects: Sequence[UUID], paths: Sequence[str]) -> dict[tuple[UUID, str], str]:
-    """Returns the blobs of these projects' files at these paths, by project and path."""
-    found = CurrentFile.objects.filter(project__in=projects, path__in=paths[:ROWS])
-    return {(row[0], row[1]): row[2] for row in found.values_list("project_id", "path", "blob_id")}
+def action_blobs(
+    projects: Sequence[UUID], paths: Sequence[str], largest: int
+) -> dict[tuple[UUID, str], tuple[str, int]]:
+    """Returns blob and size of these projects' files at these paths, if they have at most `largest` bytes."""
+    found = CurrentFile.objects.filter(project__in=projects, path__in=paths[:ROWS], blob__size__lte=largest)
+    rows = found.values_list("project_id", "path", "blob_id", "blob__size")
+    return {(project, path): (blob, size) for project, path, blob, size in rows}
 
 
 def taken_by_others(project: Project) -> int:
@@ -104,11 +112,8 @@ def store(writing: Writing) -> None:
     change = writing.change
     forget_drafts(change.project, change.author_id, writing.drafts)
     change.save(force_insert=True)
-    # Blobs are written in one order, so that two saves of the same blobs cannot deadlock.
-    blobs = [Blob(sha256=sha256, size=size, data=data) for sha256, size, data in writing.blobs]
-    blobs += [Blob(sha256=sha256, size=size, stored_at=key) for sha256, size, key in writing.stored]
-    blobs.sort(key=lambda blob: blob.sha256)
-    Blob.objects.bulk_create(blobs, ROWS, ignore_conflicts=True)
+    for part in _parts(writing):
+        Blob.objects.bulk_create(part, ROWS, ignore_conflicts=True)
     for sha256, _, key in sorted(writing.stored):
         _replace_marked(sha256, key)
     revisions = [
@@ -124,6 +129,30 @@ def store(writing: Writing) -> None:
         update_fields=["path", "revision", "updated_at", "blob"],
     )
     change.project.save(update_fields=["revision", "size", "updated_at"])
+
+
+def _parts(writing: Writing) -> Iterator[list[Blob]]:
+    """Yields the blobs of a change in parts that are not too large for the memory.
+
+    They come in one order, so that two saves of the same blobs cannot deadlock.
+    """
+    objects = {sha256: (size, key) for sha256, size, key in writing.stored}
+    contents = {content.sha256: content for content in writing.blobs}
+    part: list[Blob] = []
+    left = PART_BYTES
+    for sha256 in sorted({*objects, *contents}):
+        if sha256 in objects:
+            size, key = objects[sha256]
+            blob = Blob(sha256=sha256, size=size, stored_at=key)
+        else:
+            left -= contents[sha256].size
+            if left < 0 and part:
+                yield part
+                part, left = [], PART_BYTES - contents[sha256].size
+            blob = Blob(sha256=sha256, size=contents[sha256].size, data=contents[sha256].data)
+        part.append(blob)
+    if part:
+        yield part
 
 
 def _replace_marked(sha256: str, key: str) -> None:

@@ -26,7 +26,7 @@ from backend.projects.storage import blobs, cache, names, queries, rows
 from backend.projects.storage.access import Need
 from backend.projects.storage.at_once import BLOBS
 from backend.projects.storage.bounds import require_bounded
-from backend.projects.storage.changes import Conflict, Content, Existing, FileChange, Plan, plan
+from backend.projects.storage.changes import Conflict, Content, Existing, FileChange, Plan, Stored, plan
 from backend.projects.storage.manifest import MANIFEST, Manifest, read, write
 from backend.projects.storage.usage import room_for_archive
 
@@ -35,15 +35,22 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
+    from backend.projects.storage.changes import Source
+    from backend.projects.storage.queries import ListedFile
 
 
 def create_project(
-    files: Mapping[str, bytes], *, acting_user: User, name: str = "", message: str = "Create the project"
+    files: Mapping[str, bytes | Source | Stored],
+    *,
+    acting_user: User,
+    name: str = "",
+    message: str = "Create the project",
 ) -> Project:
     """Makes a project from these files.
 
     Args:
-        files: the contents by path; `project.json` is added if it is missing.
+        files: the contents by path; `project.json`, which is not one of those stored already, is added if it
+            is missing.
         acting_user: the owner of the new project.
         name: the name of the project; "" takes the name in `project.json`, with a number if that is taken.
         message: the message of the first change set.
@@ -53,13 +60,16 @@ def create_project(
         InvalidInputError: a path or `project.json` is invalid.
         QuotaExceededError: the project is too large.
     """
-    checked = {names.writable_path(path): Content.of(data) for path, data in files.items()}
+    checked = {
+        names.writable_path(path): Content.of(data) if isinstance(data, bytes) else data
+        for path, data in files.items()
+    }
     may_write = partial(_may_create, checked, acting_user)
     with blobs.placed(checked.values(), may_write) as stored:
         return _create(checked, stored, acting_user=acting_user, name=name, message=message)
 
 
-def _may_create(files: Mapping[str, Content], user: User) -> None:
+def _may_create(files: Mapping[str, Source | Stored], user: User) -> None:
     """Refuses what `_create` will refuse, before anything is uploaded."""
     for path, content in files.items():
         if content.size > environment().max_file_bytes:
@@ -70,10 +80,16 @@ def _may_create(files: Mapping[str, Content], user: User) -> None:
 
 @transaction.atomic
 def _create(
-    files: Mapping[str, Content], stored: Mapping[str, str], *, acting_user: User, name: str, message: str
+    files: Mapping[str, Source | Stored],
+    stored: Mapping[str, str],
+    *,
+    acting_user: User,
+    name: str,
+    message: str,
 ) -> Project:
     checked = dict(files)
-    manifest = read(checked[MANIFEST].data if MANIFEST in checked else b"{}")
+    own = checked.get(MANIFEST)
+    manifest = read(b"{}" if own is None or isinstance(own, Stored) else own.data)
     transaction_lock(f"projects of {acting_user.pk}")
     taken = set(Project.objects.filter(owner=acting_user, deleted_at=None).values_list("name_key", flat=True))
     allowed = acting_user.max_projects
@@ -180,8 +196,8 @@ def restore_revision(
     """Restores files of an old revision as a new revision: those of `paths`, or all if it is empty."""
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
-    then = queries.files_at(project, number)
-    now = queries.current_files(project)
+    then = queries.listed_at(project, number)
+    now = queries.existing_files(project)
     chosen = set(paths) or (set(then) | set(now))
     if missing := chosen - set(then) - set(now):
         raise NotFoundError(f"Revision {number} has no file “{names.shown(min(missing))}”.")
@@ -190,22 +206,18 @@ def restore_revision(
         base = now[path].revision if path in now else 0
         if path not in then:
             wanted.append(FileChange(path, base, delete=True))
-        elif names.is_of_tool(path):
-            continue
-        elif path not in now or now[path].sha256 != then[path].sha256:
-            wanted.append(FileChange(path, base, Content.of(then[path].data)))
-    if MANIFEST in {change.path for change in wanted}:
-        wanted = [_keeping_name(change, project) for change in wanted]
+        elif not names.is_of_tool(path) and (path not in now or now[path].sha256 != then[path].sha256):
+            old = then[path]
+            content = Stored(old.sha256, old.size) if path != MANIFEST else _keeping_name(old, project)
+            wanted.append(FileChange(path, base, content))
     _apply(project, wanted, acting_user=acting_user, message=f"Restore revision {number}", now=timezone.now())
     return project
 
 
-def _keeping_name(change: FileChange, project: Project) -> FileChange:
-    """Keeps the current name in a restored `project.json`, since the old name may be taken now."""
-    if change.path != MANIFEST or change.content is None:
-        return change
-    document = dict(read(change.content.data).document) | {"name": project.name}
-    return FileChange(MANIFEST, change.base_revision, Content.of(write(document)))
+def _keeping_name(old: ListedFile, project: Project) -> Content:
+    """Returns an old `project.json` with the current name, since the old name may be taken now."""
+    document = dict(read(queries.data_of([old])[MANIFEST]).document) | {"name": project.name}
+    return Content.of(write(document))
 
 
 @transaction.atomic
@@ -225,8 +237,14 @@ def label_revision(
 def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") -> Project:
     """Makes a new project from the current files, without their history."""
     source = queries.project(project_id, user=acting_user, need=Need.COPY)
-    kept_files = queries.current_files(source)
-    files = {path: file.data for path, file in kept_files.items() if not names.is_of_tool(path)}
+    # In the order of `_create`. From now on no content of the project is collected.
+    transaction_lock(f"projects of {acting_user.pk}")
+    transaction_lock(BLOBS, shared=True)
+    current = queries.existing_files(source)
+    files: dict[str, bytes | Source | Stored] = {
+        path: Stored(file.sha256, file.size) for path, file in current.items() if not names.is_of_tool(path)
+    }
+    files |= queries.data_of([current[MANIFEST]])
     return create_project(files, acting_user=acting_user, name=name, message=f"Duplicate of {source.name}")
 
 
@@ -352,14 +370,15 @@ def _apply(  # noqa: PLR0913 - a change set has them all
     )
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
     for content in contents.values():
-        (cache.put_stored if content.sha256 in stored else cache.put)(content.sha256, content.data)
+        if isinstance(content, Content):  # in memory already
+            (cache.put_stored if content.sha256 in stored else cache.put)(content.sha256, content.data)
     if result.removed:
         CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
     removed = [(path, None, "") for path in result.removed]
     rows.write(
         rows.Writing(
             change=change,
-            blobs=[(sha256, c.size, c.data) for sha256, c in contents.items() if sha256 not in stored],
+            blobs=[content for sha256, content in contents.items() if sha256 not in stored],
             stored=[(sha256, c.size, stored[sha256]) for sha256, c in contents.items() if sha256 in stored],
             revisions=removed + [(w.path, w.sha256, w.renamed_from) for w in result.written],
             files=[(w.path, names.key(w.path), w.sha256) for w in result.written],
@@ -445,7 +464,11 @@ def conflict_error(project: Project, conflicts: Sequence[Conflict]) -> RevisionC
                     "content": file.text,
                     "updated_at": file.updated_at.isoformat(),
                 },
-                "mine": {"content": queries.as_text(mine.data) if mine else None},
+                "mine": {
+                    "content": None
+                    if mine is None or isinstance(mine, Stored)
+                    else queries.as_text(mine.data)
+                },
             }
         )
     listed = ", ".join(f"“{names.shown(c.path)}”" for c in conflicts[:3])

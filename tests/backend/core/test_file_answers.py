@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 
+import pytest
+
 from backend.core.file_answers import PART, FileAnswer
 
 
@@ -16,6 +18,7 @@ def test_the_file_is_sent_from_its_beginning_in_parts() -> None:
     assert b"".join(answer) == data
 
 
+@pytest.mark.django_db  # the end of an answer looks at the connections of its process
 def test_a_file_that_was_taken_belongs_to_its_taker() -> None:
     file = io.BytesIO(b"x")
     answer = FileAnswer(file)
@@ -24,6 +27,7 @@ def test_a_file_that_was_taken_belongs_to_its_taker() -> None:
     assert not file.closed
 
 
+@pytest.mark.django_db  # the end of an answer looks at the connections of its process
 def test_a_file_that_nobody_took_is_closed_with_the_answer() -> None:
     file = io.BytesIO(b"x")
     FileAnswer(file).close()

@@ -10,17 +10,16 @@ from django.db.utils import ConnectionHandler
 
 from backend.config import team
 from backend.core.stale_plans import watch_plans
-from tests.backend.services import postgresql
 
 pytestmark = pytest.mark.django_db(transaction=True)
 ASKED = "SELECT address FROM places"
 
 
 @pytest.fixture
-def connections():
-    """An own server, since tests on SQLite have none; the first connection has prepared a statement."""
+def connections(warm_postgresql):
+    """A PostgreSQL, which tests on SQLite do not have; the first connection has prepared a statement."""
     watch_plans()
-    with postgresql(fsync="off") as url:
+    with warm_postgresql.database_url(is_migrated=False) as url:
         handler = ConnectionHandler({"default": team.postgresql(url), "migrating": team.postgresql(url)})
         with handler["migrating"].cursor() as cursor:
             cursor.execute("CREATE TABLE places (address varchar(200))")

@@ -212,6 +212,7 @@ def test_every_route_that_writes_is_here_or_named():
         "invite_to_group",
         "revoke_invitation",
         "import_project",  # above
+        "import_part",  # by the function of save_files
         "delete_my_account",
         "start_session",  # a repeated request is answered with the existing session; so is the next one
         "attach",
@@ -231,9 +232,11 @@ def test_every_route_that_writes_is_here_or_named():
         "delete_evaluation",  # one transaction, and nothing is read for the answer
         # These store nothing.
         "prepare_attach",
+        "inspect_import",
         "check_project",
         "test_project",
         "test_with_python",
+        "end_test_with_python",
         "write_tree_xml",
         "read_tree_xml",
         "inspect_action",

@@ -18,9 +18,8 @@ import pytest
 import requests
 
 from tests.backend.disks import MEBIBYTE, may_mount, small_disk
-from tests.backend.services import cluster, postgresql
+from tests.backend.services import cluster
 from tests.backend.serving import TIMEOUT_S, serving
-from tests.backend.zygote import zygote
 from tests.budget import count
 
 log = logging.getLogger(__name__)
@@ -111,8 +110,7 @@ def database(request):
         yield {}
         return
     # The web server is killed, not the database: what is committed is safe without a sync.
-    with postgresql(fsync="off") as url:
-        yield {"BT_STUDIO_DATABASE_URL": url}
+    yield {"BT_STUDIO_DATABASE_URL": request.getfixturevalue("database_url")}
 
 
 def make_projects(server, number):
@@ -128,24 +126,24 @@ def make_projects(server, number):
     return [project["id"] for project in made]
 
 
+@pytest.mark.kills
 @pytest.mark.timeout(0)
 def test_no_acknowledged_save_is_lost_when_the_server_is_killed(tmp_path, database):
     kills = count("backend_kill_storm")
     chance = random.Random(7)  # noqa: S311
     storm, saves = None, 0
-    with zygote(tmp_path, **database) as forking:
-        for kill in range(kills + 1):
-            with forking.serving() as server:
-                if storm is None:
-                    projects = make_projects(server, WRITERS)
-                    revisions = dict.fromkeys(projects, 1)
-                else:
-                    for project, acknowledged in storm.acknowledged.items():
-                        revisions[project] = check(server, project, acknowledged, revisions[project])
-                        saves += len(acknowledged)
-                if kill < kills:
-                    storm = Storm(server, str(kill), projects, chance.randint(5, 25))
-                    storm.rage()
+    for kill in range(kills + 1):
+        with serving(tmp_path, **database) as server:
+            if storm is None:
+                projects = make_projects(server, WRITERS)
+                revisions = dict.fromkeys(projects, 1)
+            else:
+                for project, acknowledged in storm.acknowledged.items():
+                    revisions[project] = check(server, project, acknowledged, revisions[project])
+                    saves += len(acknowledged)
+            if kill < kills:
+                storm = Storm(server, str(kill), projects, chance.randint(5, 25))
+                storm.rage()
     log.info("%d kills, %d acknowledged saves, %d files compared", kills, saves, saves * len(FILES))
     if not database:
         assert_sound(tmp_path)
@@ -185,6 +183,7 @@ def written(server, project, revision, ask=requests.get):
     return text
 
 
+@pytest.mark.kills
 def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
     with small_disk(tmp_path / "disk", 24) as disk:
         with serving(disk.folder, prefix=disk.prefix) as server:

@@ -12,8 +12,7 @@ from contextlib import ExitStack
 
 import pytest
 
-from tests.backend.bucket import bucket
-from tests.backend.services import postgresql
+from tests.backend.migrated import add_sqlite
 from tests.backend.serving import REPOSITORY
 from tests.budget import count
 
@@ -55,16 +54,21 @@ class Storms:
         return sum(line[0] == "blob" for line in lines)
 
 
+@pytest.mark.kills
 @pytest.mark.timeout(0)
 @pytest.mark.parametrize("database", ["sqlite", "postgresql"])
-def test_no_named_object_is_missing_and_no_orphan_stays(tmp_path, database):
+def test_no_named_object_is_missing_and_no_orphan_stays(tmp_path, database, warm_bucket, request):
     kills, chance = count("backend_object_kills"), random.Random(5)  # noqa: S311
     with ExitStack() as stack:
-        settings = stack.enter_context(bucket()).variables
-        settings |= {"BT_STUDIO_DATA_DIR": str(tmp_path), "BT_STUDIO_OBJECT_STORE_FROM_BYTES": "1000"}
+        warm_bucket.fresh()
+        settings = warm_bucket.variables | {
+            "BT_STUDIO_DATA_DIR": str(tmp_path),
+            "BT_STUDIO_OBJECT_STORE_FROM_BYTES": "1000",
+        }
+        add_sqlite(tmp_path)
         if database == "postgresql":
             # The web server is killed, not the database: what is committed is safe without a sync.
-            settings["BT_STUDIO_DATABASE_URL"] = stack.enter_context(postgresql(fsync="off"))
+            settings["BT_STUDIO_DATABASE_URL"] = request.getfixturevalue("database_url")
         clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
         process = subprocess.Popen(
             [sys.executable, "-m", "tests.backend.projects.storage.object_storm"],

@@ -20,6 +20,18 @@ def test_owners_take_turns():
     assert [queue.take()[1] for _ in range(4)] == ["a1", "b1", "a2", "a3"]
 
 
+def test_the_owner_with_the_fewest_at_work_is_next():
+    queue: FairQueue[Any] = FairQueue(room=10, per_owner=5)
+    for item in ("a1", "a2", "b1"):
+        queue.put(item[0], item)
+    assert [queue.take()[1] for _ in range(2)] == ["a1", "b1"]
+    queue.put("b", "b2")
+    queue.put("c", "c1")
+    queue.done("b")
+    # a has one at work, b and c none; b waits longer than c.
+    assert [queue.take()[1] for _ in range(3)] == ["b2", "c1", "a2"]
+
+
 def test_one_owner_has_no_more_than_its_share_at_work():
     queue: FairQueue[Any] = FairQueue(room=10, per_owner=2)
     for n in range(4):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
+import weakref
 from functools import partial
 
 import pytest
@@ -127,3 +128,19 @@ def test_it_tells_for_how_long_no_thread_was_free_and_none_made_progress(threads
         return threads.full_for_s(), threads.stuck_for_s()
 
     assert asyncio.run(ask()) == (0.0, 0.0)
+
+
+def test_nothing_of_a_call_stays_with_a_thread_that_waits(threads):
+    class Large:
+        """Stands for the data of a request or of its answer."""
+
+    async def ask():
+        loop = asyncio.get_running_loop()
+        given, made = Large(), Large()
+        kept = [weakref.ref(given), weakref.ref(made)]
+        await threads.run(loop, lambda given=given, made=made: (given, made)[1])
+        del given, made
+        while any(one() is not None for one in kept):  # noqa: ASYNC110 - the thread lets go after its caller knows
+            await asyncio.sleep(0.01)
+
+    asyncio.run(ask())

@@ -10,6 +10,7 @@ from backend.core.limits import LIMITS
 from backend.projects.models import Blob
 from backend.projects.storage import bounds, cache, queries, writes
 from translator import limits
+from translator.diagram import restore
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -54,6 +55,25 @@ def test_a_save_is_refused_that_makes_trees_too_large(api, one, small, sizes, is
         assert answer["code"] == "quota_exceeded"
         assert answer["hint"]
         assert api.get(f"projects/{one}")["revision"] == 1
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        lambda text: text.replace('"type"', '"t\\u0079pe"'),
+        lambda text: text.replace('"nodes"', '"n\\u006fdes"'),
+        lambda text: "\ufeff" + text,
+        lambda text: json.dumps(json.loads(text), indent=4),
+    ],
+)
+def test_nodes_are_counted_however_they_are_written(api, one, small, written):
+    """A save refuses a tree that the translator would refuse, and no other."""
+    for nodes, status in ((9, 413), (8, 200)):
+        content = written(diagram("MainTree", nodes))
+        file = {"path": "trees/MainTree.json", "base_revision": 1, "content": content}
+        api.save(one, file, expect=status)
+        found, _ = restore(content.encode(), file="trees/MainTree.json")
+        assert len(found.nodes) == nodes
 
 
 def test_bytes_of_all_trees_are_bounded(api, one, monkeypatch):

@@ -116,9 +116,6 @@ def test_a_free_name_counts_up_and_keeps_its_length():
     assert free.endswith(" 2")
 
 
-# --- what is of a tool --------------------------------------------------------------------------------
-
-
 @pytest.mark.django_db(transaction=True)
 def test_folders_of_tools_can_neither_be_written_nor_renamed_to(api):
     one = api.post("projects", {"name": "Robot"}, expect=201)["id"]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 
-from backend.projects.storage import offers
+import pytest
+
+from backend.projects.storage import cache, offers
 from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixtures
 from tests.backend.accounts.test_sharing import project_of
 
@@ -83,3 +85,45 @@ def test_offers_are_found_by_those_who_may_read_the_project(person):  # noqa: F8
     assert found(fred.user) == []
     olga.post(f"projects/{one}/archive")
     assert found(olga.user) == []
+
+
+def test_the_list_reads_no_more_than_offers_may_use(api, project, user, monkeypatch):
+    one, read = project["id"], []
+    fetch = cache.contents
+    monkeypatch.setattr(cache, "contents", lambda hashes: read.append(fetch(list(hashes))) or read[-1])
+    large = action("Large", "# " + "x" * 1_000_000)
+    api.save(one, tree("Dock", {"type": "Park"}), action("Park"), large)
+    read.clear()
+    assert sorted(found(user)[0].files) == ["actions/Park.py", "trees/Dock.json"]
+    assert sum(len(data) for round_ in read for data in round_.values()) < 1000
+    park = {**action("Park", "from Large import Large\n"), "base_revision": 2}
+    api.save(one, park)
+    read.clear()
+    assert found(user) == []
+    assert sum(len(data) for round_ in read for data in round_.values()) < 1000
+
+
+@pytest.mark.parametrize(("name", "value"), [("LARGEST", 400), ("MOST_FILES", 2)])
+def test_a_project_that_offers_too_much_is_left_out_and_others_are_not(api, user, monkeypatch, name, value):
+    large, small = (api.post("projects", {"name": each}, expect=201)["id"] for each in ("Large", "Small"))
+    api.save(large, tree("Dock", *[{"type": "Sequence"}] * 100), action("One"))
+    api.save(small, tree("Dock", {"type": "Sequence"}))
+    assert [offer.project.name for offer in found(user)] == ["Small", "Large"]
+    monkeypatch.setattr(offers, name, value)
+    assert [offer.project.name for offer in found(user)] == ["Small"]
+
+
+def test_trees_that_offered_ones_use_are_found_at_any_depth_and_in_a_ring(api, project, user):
+    ring = [tree(f"T{n}", {"type": "SubTree", "tree": f"T{(n + 1) % 12}"}, offered=n == 0) for n in range(12)]
+    api.save(project["id"], *ring)
+    assert sorted(found(user)[0].files) == sorted(file["path"] for file in ring)
+
+
+def test_a_file_that_is_no_text_is_left_out_and_asked_for_once(api, project, user, monkeypatch):
+    chain = [tree(f"T{n}", {"type": "SubTree", "tree": f"T{n + 1}"}, offered=n == 0) for n in range(5)]
+    bytes_ = {"path": "actions/Park.py", "base_revision": 0, "content_base64": "AP8A" * 100}
+    api.save(project["id"], *chain, tree("T5", {"type": "Park"}), bytes_)
+    asked, fetch = [], cache.contents
+    monkeypatch.setattr(cache, "contents", lambda hashes: asked.append(fetch(list(hashes))) or asked[-1])
+    assert sorted(found(user)[0].files) == [f"trees/T{n}.json" for n in range(6)]
+    assert sum(any(len(data) == 300 for data in round_.values()) for round_ in asked) == 1

@@ -70,7 +70,7 @@ class TwoClients(RuleBasedStateMachine):
 
     def write(self, client, chosen, line=None):
         line = line or f"{client}{next(NUMBERS)}"
-        wanted = {}
+        wanted: dict[str, Any] = {}
         for path in chosen:
             revision, data = self.known[client].get(path, (0, b""))
             wanted[path] = FileChange(path, revision, Content.of(data + f"{line}\n".encode()))

@@ -42,6 +42,10 @@ class Site(admin.AdminSite):
         """Adds the page that sends a test mail."""
         return [path("mail/", self.admin_view(self.mail), name="mail"), *super().get_urls()]
 
+    def each_context(self, request: HttpRequest) -> dict[str, Any]:
+        """Adds whether a warning about the launcher is shown on each page."""
+        return super().each_context(request) | {"users_run_as_server": environment().users_run_as_server}
+
     def mail(self, request: HttpRequest) -> HttpResponse:
         """Sends a mail to the administrator who presses the button."""
         if request.method == "POST":
@@ -118,13 +122,13 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     """Accounts, their rights, limits and disk use."""
 
     list_display = ("username", "email", "role", "is_active", "projects_kept", "room_used", "last_login")
-    list_filter = ("is_active", "is_teacher", "is_staff", "is_superuser")
+    list_filter = ("is_active", "is_teacher", "is_staff", "is_superuser", "is_exempt")
     actions = ("make_password_link", "deactivate")
     fieldsets = (
         (None, {"fields": ("username", "password")}),
         ("Person", {"fields": ("first_name", "last_name", "email")}),
         ("Rights", {"fields": ("is_active", "is_teacher", "is_staff", "is_superuser")}),
-        ("Limits", {"fields": ("max_bytes", "max_projects")}),
+        ("Limits", {"fields": ("max_bytes", "max_projects", "is_exempt")}),
         ("Dates", {"fields": ("last_login", "date_joined")}),
     )
     readonly_fields = ("last_login", "date_joined")

@@ -30,6 +30,14 @@ class User(AbstractUser):
         "number of projects", null=True, blank=True, help_text="Empty is the server's limit."
     )
 
+    is_exempt = models.BooleanField(
+        "demonstration",
+        default=False,
+        db_default=False,
+        help_text="Has no limit of robots, editors and tests at a time, and goes first when all places are "
+        "taken. For a demonstration.",
+    )
+
     links: frozenset[uuid.UUID] = frozenset()
 
     @property

@@ -8,17 +8,17 @@ are stored stay as they are.
 from __future__ import annotations
 
 import hashlib
-import json
 import logging
 import time
-from typing import TYPE_CHECKING, Any, Final
+from typing import IO, TYPE_CHECKING, Any, Final
 
 from django.utils import timezone
 from websockets.exceptions import WebSocketException
 
 from backend.core.problems import StudioError
+from backend.core.scratch import NoRoomError
 from backend.evaluations import executor_events, work, writes
-from backend.evaluations.bundle import archive_of
+from backend.evaluations.bundle import archive_of, message_with
 from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation, Replay
 from backend.projects.storage import queries as projects
@@ -141,8 +141,6 @@ class Collector:
         if not Session.objects.filter(id=self._session.id, state=SessionState.READY).exists():
             raise _Over
 
-    # --- evaluations ------------------------------------------------------------------------------
-
     def _evaluate(self, found: Evaluation) -> bool:
         """Runs what an evaluation lacks; returns whether it came to an end."""
         try:
@@ -154,16 +152,18 @@ class Collector:
             archive = archive_of(found, side.revision)
         except Evaluation.DoesNotExist:
             return False
+        except NoRoomError:
+            return _later()
         except StudioError as error:
             writes.finish(found, JobState.FAILED, error.detail)
             return True
         return self._run_side(found, side, archive)
 
-    def _run_side(self, found: Evaluation, side: Side, archive: str) -> bool:
+    def _run_side(self, found: Evaluation, side: Side, archive: IO[bytes]) -> bool:
         name = _job_name(found.id.hex, side.revision, found.attempt)
         self._ask(
             name,
-            app_zip_base64=archive,
+            archive,
             evaluation=found.name,
             seeds=side.seeds,
             known=side.known,
@@ -200,19 +200,17 @@ class Collector:
                 writes.wait_again(found)
                 return False
 
-    # --- replays ----------------------------------------------------------------------------------
-
     def _replay(self, item: Replay) -> bool:
         """Runs a seed again, and keeps its recording."""
         try:
             archive = archive_of(item.evaluation, item.revision)
+        except NoRoomError:
+            return _later()
         except StudioError as error:
             writes.replayed(item, JobState.FAILED, error.detail)
             return True
         name = _job_name(item.id.hex, item.revision, item.tries)
-        self._ask(
-            name, app_zip_base64=archive, evaluation=item.evaluation.name, seeds=[item.seed], record=True
-        )
+        self._ask(name, archive, evaluation=item.evaluation.name, seeds=[item.seed], record=True)
         while not isinstance(message := self._hear(name), executor_events.Ended):
             self._look()
             if not Replay.objects.filter(id=item.id).exists():
@@ -239,12 +237,11 @@ class Collector:
         values = {"recorded_as": recorded_as, "name": name}
         return stored_runs.keep(fetched, project, values, acting_user=item.user)
 
-    # --- the socket -------------------------------------------------------------------------------
-
-    def _ask(self, job: str, **data: Any) -> None:
+    def _ask(self, job: str, archive: IO[bytes], **data: Any) -> None:
         assert self._socket is not None  # noqa: S101 - `run` has opened it
-        message = {"id": job, "command": "evaluate", "data": {"job": job, **data}}
-        self._socket.send(json.dumps(message))
+        with archive:
+            message = {"id": job, "command": "evaluate", "data": {"job": job, **data}}
+            self._socket.send(message_with(archive, message))
 
     def _hear(self, job: str) -> Any:
         """Returns the next message about a job; None if nothing comes for a moment.
@@ -258,17 +255,23 @@ class Collector:
         except TimeoutError:
             return None
         except ValueError as error:
-            raise _LostError(f"The executor sent what is no message: {error}.") from error
+            raise _LostError(f"The session sent what is no message: {error}.") from error
         if isinstance(message, executor_events.Refusal):
-            raise _LostError(f"The executor refuses: {message.message}")
+            raise _LostError(f"The session refuses: {message.message}")
         return message if getattr(message, "job", "") == job else None
+
+
+def _later() -> bool:
+    """Pauses, since other large files take all the space; then the same is tried again."""
+    time.sleep(LOOK_S)
+    return True
 
 
 def _line(done: executor_events.Done) -> executor_events.Line:
     try:
         return executor_events.read_line(done)
     except ValueError as error:
-        raise _LostError(f"The executor sent what is no outcome: {error}.") from error
+        raise _LostError(f"The session sent what is no outcome: {error}.") from error
 
 
 def _ended(found: Evaluation, side: Side, ended: executor_events.Ended) -> bool:

@@ -37,8 +37,10 @@ class Begun(msgspec.Struct):
     sequential: bool
     duration_s: Annotated[float, Meta(ge=0, le=1e6)]
     plan: dict[str, Any]
+    notes: Annotated[str, Meta(max_length=100_000)] = ""
 
     def __post_init__(self) -> None:
+        self.notes = self.notes.replace("\0", "")
         encoded = msgspec.json.encode(self.plan)
         if len(encoded) > MOST_PLAN or rb"\u0000" in encoded or depth_of(encoded) > MOST_DEPTH:
             self.plan = {}

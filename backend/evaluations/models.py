@@ -27,6 +27,7 @@ class Evaluation(models.Model):
         results: by revision, `done`, `wanted`, `rate`, `low` and `high`.
         line_bytes: the size of its outcomes.
         plan: outlines of the world, for the report.
+        notes: a line for each part of the project that does not run, such as a launch node.
         attempt: counts how often it was begun.
     """
 
@@ -49,6 +50,7 @@ class Evaluation(models.Model):
     results = models.JSONField(default=dict)
     left_s = models.FloatField(null=True)
     plan = models.JSONField(default=dict)
+    notes = models.TextField(blank=True, default="", db_default="")
     attempt = models.PositiveIntegerField(default=1)
     tries = models.PositiveSmallIntegerField(default=0)
     created_at = models.DateTimeField()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 from django.db.models import Avg, Count, Sum
+from django.db.models.functions import Length
 from django.utils import timezone
 
 from backend.core.problems import NotFoundError
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 FOLDER: Final = "evaluations/"
 ENDING: Final = ".yaml"
 OUTCOMES_AT_A_TIME: Final = 2000
+OUTCOME_BYTES_AT_A_TIME: Final = 8 << 20
 MOST_NODES: Final = 20_000
 _DAY: Final = timedelta(hours=24)
 
@@ -85,9 +87,20 @@ def costs(rows: list[Evaluation]) -> list[dict[str, Any]]:
 
 
 def outcomes(found: Evaluation, revision: int, after: int) -> list[Outcome]:
-    """Returns the outcomes that came after a row, in the order in which they came; at most 2,000."""
-    rows = Outcome.objects.filter(evaluation=found, revision=revision, id__gt=after)
-    return list(rows.defer("line").order_by("id")[:OUTCOMES_AT_A_TIME])
+    """Returns the outcomes that came after a row, in the order in which they came.
+
+    They are at most 2,000, whose lines have at most 8 MB; their measures are parts of their lines.
+    """
+    rows = Outcome.objects.filter(evaluation=found, revision=revision, id__gt=after).defer("line")
+    page: list[Outcome] = []
+    left = OUTCOME_BYTES_AT_A_TIME
+    sized = rows.annotate(line_size=Length("line")).order_by("id")[:OUTCOMES_AT_A_TIME]
+    for row in sized.iterator(chunk_size=100):
+        left -= row.line_size
+        if left < 0 and page:
+            break
+        page.append(row)
+    return page
 
 
 def outcome(found: Evaluation, revision: int, seed: int) -> Outcome:
@@ -115,14 +128,18 @@ class _Seen(msgspec.Struct):
 
 
 def seen(found: Evaluation, revision: int) -> dict[str, str]:
-    """Returns all results that each node had in some run, as letters by the path of the node."""
+    """Returns all results that each node had in some run, as letters by the path of the node.
+
+    They are those of the first `MOST_NODES` nodes.
+    """
     decoder = msgspec.json.Decoder(_Seen)
     every: dict[str, set[str]] = {}
     for line in lines(found, revision):
         with contextlib.suppress(msgspec.DecodeError):  # the executor wrote it, which runs code of users
             for path, letters in decoder.decode(line).seen.items():
-                every.setdefault(path, set()).update(letters)
-    return {path: "".join(sorted(letters)) for path, letters in list(every.items())[:MOST_NODES]}
+                if path in every or len(every) < MOST_NODES:
+                    every.setdefault(path, set()).update(letters)
+    return {path: "".join(sorted(letters)) for path, letters in every.items()}
 
 
 def replay(found: Evaluation, replay_id: UUID, *, user: User) -> Replay:

@@ -71,6 +71,7 @@ def report_of(found: Evaluation) -> IO[bytes]:
         "wanted": about["wanted"],
         "most": found.wanted or about["wanted"],
         "sequential": found.sequential,
+        "notes": found.notes.splitlines(),
         "plan": found.plan or {"outlines": [], "areas": []},
     }
     return _ask("report", found, document)

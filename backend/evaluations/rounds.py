@@ -75,9 +75,6 @@ def one_round() -> None:
                 _ending.discard(session_id)
 
 
-# --- inside ---
-
-
 def _is_work() -> bool:
     return (
         Evaluation.objects.filter(state__in=LIVE).exists() or Replay.objects.filter(state__in=LIVE).exists()

@@ -54,6 +54,9 @@ class EvaluationSerializer(serializers.Serializer[Any]):
         help_text="While it waits: processor hours of its user, users who work, or its turn. Else empty.",
     )
     error = serializers.CharField(help_text="Why it failed, a line for each problem; else empty.")
+    notes = serializers.CharField(
+        help_text="A line for each part of the project that does not run, such as a launch node; else empty."
+    )
     attempt = serializers.IntegerField(help_text="Changes when it is begun again; outcomes may have gone.")
     left_s = serializers.FloatField(allow_null=True, help_text="The time that is probably left, in s.")
     author = serializers.CharField(help_text="The user who started it last.")
@@ -201,7 +204,7 @@ def presented(
     """Returns an evaluation as JSON."""
     plain = ("name", "revision", "older", "seed", "sealed", "sequential", "duration_s", "workers", "state")
     revisions = [found.revision, *([] if found.older is None else [found.older])]
-    return {name: getattr(found, name) for name in (*plain, "error", "attempt", "left_s")} | {
+    return {name: getattr(found, name) for name in (*plain, "error", "notes", "attempt", "left_s")} | {
         "id": str(found.id),
         "waits_for": waits.get(found.id, WaitsFor.NOTHING).value,
         "author": found.user.username,

@@ -22,7 +22,7 @@ from backend.evaluations.rounds import round_soon
 from backend.projects.api.schema import NOT_SOUND
 from backend.projects.api.serializers_tests import CoverageSerializer
 from backend.projects.documents import checking
-from backend.projects.storage.queries import files_at
+from backend.projects.storage.queries import fetched, listed_at
 from backend.workers.aside import conversions
 from backend.workers.deferred import Deferred
 
@@ -150,7 +150,13 @@ class Evaluations(ResourceViewSet):
         """Returns which blocks the runs of a revision ticked, and which results these had, in any run."""
         found = queries.evaluation(project_id, evaluation_id, user=user_of(request))
         revision = _revision(request, found)
-        files = {path: file.data for path, file in files_at(found.project, revision).items()}
+        listed = [
+            file
+            for path, file in listed_at(found.project, revision).items()
+            if path.startswith(checking.CHECKED)
+        ]
+        checking.require_checkable(file.size for file in listed)
+        files = {path: file.data for path, file in fetched(listed).items()}
         return checking.covered(self, request, files, queries.seen(found, revision), Response)
 
     @extend_schema(

@@ -12,6 +12,7 @@ from backend.evaluations import queries
 from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, WaitsFor
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.writes import hours_left
+from backend.sessions import turns
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.models import Session
 
@@ -93,8 +94,8 @@ def _with_starting_cluster() -> list[UUID]:
 
 
 def somebody_waits_for_place() -> bool:
-    """Returns whether a user who works waits for a place."""
-    return Session.objects.filter(kind=SessionKind.INTERACTIVE, state=SessionState.QUEUED).exists()
+    """Returns whether a user who works waits for a place, not for the end of another robot of theirs."""
+    return bool(turns.order_now().next)
 
 
 def waiting_places() -> dict[Place, datetime]:

@@ -191,15 +191,12 @@ def cancel_replay(project_id: UUID, evaluation_id: UUID, replay_id: UUID, *, act
     queries.replay(found, replay_id, user=acting_user).delete()
 
 
-# --- what the collector writes --------------------------------------------------------------------
-
-
 def begun(found: Evaluation, event: Begun) -> None:
     """Stores what is known of an evaluation once it has begun."""
     values: dict[str, Any] = {"state": JobState.RUNNING, "workers": event.workers}
     if found.seed is None:
         values |= {"seed": event.seed, "wanted": event.wanted, "sequential": event.sequential}
-        values |= {"duration_s": event.duration_s, "plan": event.plan}
+        values |= {"duration_s": event.duration_s, "plan": event.plan, "notes": event.notes}
     if Evaluation.objects.filter(id=found.id, state__in=LIVE).update(**values):
         for name, value in values.items():
             setattr(found, name, value)

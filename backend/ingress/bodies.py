@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
 import io
+import re
 from dataclasses import dataclass
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
@@ -19,13 +19,13 @@ from django.db import OperationalError, close_old_connections
 from backend.accounts.identity import identify
 from backend.config.environment import environment
 from backend.core import guard
-from backend.core.problems import StudioError, database_problem, disk_full, problem
+from backend.core.problems import StudioError, database_problem, disk_problem, problem
 from backend.core.processes.siblings import siblings
 from backend.core.processes.threads import Threads
 from backend.core.scopes import cookies_of, facts_of, headers_of
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable
+    from collections.abc import AsyncIterator, Callable, Sequence
 
     from asgiref.typing import ASGIReceiveCallable, HTTPScope
 
@@ -84,7 +84,7 @@ class Upload:
     """A route that accepts archives; all others accept at most `BT_STUDIO_MAX_REQUEST_BYTES`.
 
     Attributes:
-        path: the path of the route.
+        path: a regular expression of the paths of the route.
         room: returns the number of bytes that a user may send; raises a StudioError if the user may send
             none.
         kind: the content type of streamed bodies; other types, such as forms, are not streamed.
@@ -96,7 +96,8 @@ class Upload:
 
     def takes(self, scope: HTTPScope, kind: str) -> bool:
         """Returns whether a request is an upload for this route."""
-        return scope["method"] == "POST" and scope["path"] == self.path and kind.startswith(self.kind)
+        is_here = re.fullmatch(self.path, scope["path"]) is not None
+        return scope["method"] == "POST" and is_here and kind.startswith(self.kind)
 
 
 def body_of(request: Any) -> IO[bytes]:
@@ -110,12 +111,12 @@ class Bodies:
 
     Args:
         asking: the threads with a connection to the database.
-        upload: the route for archives, if there is one.
+        uploads: the routes for archives.
         scratch: the temporary files for large bodies.
     """
 
-    def __init__(self, asking: Threads, upload: Upload | None, scratch: Scratch) -> None:
-        self._asking, self.upload, self.scratch = asking, upload, scratch
+    def __init__(self, asking: Threads, uploads: Sequence[Upload], scratch: Scratch) -> None:
+        self._asking, self.uploads, self.scratch = asking, uploads, scratch
         self._writing = Threads(2, "bodies")
 
     @contextlib.asynccontextmanager
@@ -136,9 +137,10 @@ class Bodies:
         except StudioError as error:
             raise BodyRefusedError(error.document(), error.retry_after_s or None) from error
         except OSError as error:
-            if error.errno != errno.ENOSPC:
+            found = disk_problem(error)
+            if found is None:
                 raise
-            raise BodyRefusedError(disk_full()) from error
+            raise BodyRefusedError(found) from error
         except OperationalError as error:
             raise BodyRefusedError(database_problem(error), RETRY_S) from error
         finally:
@@ -194,9 +196,9 @@ class _Reading:
 
     async def _admit(self, declared: int) -> None:
         """Checks the headers, and refuses the body if it is too large."""
-        upload = self._bodies.upload
-        user = None
-        if upload is not None and upload.takes(self._scope, self._headers.get("content-type", "")):
+        kind, user = self._headers.get("content-type", ""), None
+        upload = next((each for each in self._bodies.uploads if each.takes(self._scope, kind)), None)
+        if upload is not None:
             user = await self._sender()
         if upload is not None and user is not None and not user.is_guest:
             self._take_slot(user, is_upload=True)

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import contextvars
+import logging
 import os
 import time
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -26,10 +27,12 @@ from backend.core.file_answers import PART, FileAnswer
 from backend.core.problems import problem, problem_response
 from backend.core.processes.siblings import siblings
 from backend.core.processes.threads import Threads
+from backend.core.readers import ReadersBusyError, Reading, reading
 from backend.core.scratch import scratch
-from backend.ingress.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefusedError, ClientLeftError
+from backend.ingress.bodies import BODY, Bodies, BodyRefusedError, ClientLeftError, Refused
 from backend.ingress.middleware import secured
 from backend.ingress.owners import owner_of
+from backend.ingress.sending import Answer, SlowReaderError, cut, send_and_close, send_answer, send_file
 from backend.ingress.turns import turns
 from backend.workers.deferred import Deferred
 
@@ -40,7 +43,9 @@ if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
     from django.http import HttpRequest
 
-    from backend.ingress.bodies import Refused, Upload
+    from backend.ingress.bodies import Upload
+
+log = logging.getLogger(__name__)
 
 THREADS: Final = {"local": 8, "team": 8}
 """Number of request threads, by mode; each has a connection to the database."""
@@ -54,19 +59,6 @@ MOST_WAITING: Final = 600
 RETRY_S: Final = 30
 LOOP_S: Final = 0.0005
 """Event-loop time in seconds for one request, as measured."""
-LINGER_S: Final = 10.0
-LINGER_BYTES: Final = 64 * 1024 * 1024
-"""`LINGER_S` and `LINGER_BYTES`: seconds and bytes for which a refused body is still read and discarded."""
-
-
-class Answer(NamedTuple):
-    """A response that no longer needs a thread."""
-
-    status: int
-    headers: list[tuple[bytes, bytes]]
-    body: bytes
-    file: IO[bytes] | None = None
-    """The body, if it is too large for the memory."""
 
 
 class Unfinished(NamedTuple):
@@ -80,11 +72,11 @@ class ThreadedHandler(ASGIHandler):
     """Django as an ASGI application for HTTP only.
 
     Args:
-        upload: the route for archives, if there is one.
+        uploads: the routes for archives.
         hashing: the number of passwords that are hashed at the same time; the default depends on the machine.
     """
 
-    def __init__(self, upload: Upload | None = None, *, hashing: int | None = None) -> None:
+    def __init__(self, *uploads: Upload, hashing: int | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
         family = siblings.family
@@ -95,13 +87,28 @@ class ThreadedHandler(ASGIHandler):
         share_of_processors = max(1 if family else 2, (os.cpu_count() or 1) // (2 * size))
         self._hashing = asyncio.Semaphore(hashing or share_of_processors)
         self._waiting, self._most_waiting = 0, MOST_WAITING // size
-        self._bodies = Bodies(self.threads, upload, scratch())
+        self._bodies = Bodies(self.threads, uploads, scratch())
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, answers it in a thread, and sends the answer."""
         owner = owner_of(scope)
         known(scope, owner)
         turns.spend(owner, LOOP_S)
+        held = Reading(owner)
+        reading.set(held)
+        try:
+            await self._served(scope, receive, send, owner, held)
+        finally:
+            held.close()
+
+    async def _served(
+        self,
+        scope: HTTPScope,
+        receive: ASGIReceiveCallable,
+        send: ASGISendCallable,
+        owner: str,
+        held: Reading,
+    ) -> None:
         try:
             async with self._bodies.read(scope, receive, owner) as body:
                 # Context variables of a request (language, address) must not stay set in the thread.
@@ -110,26 +117,24 @@ class ThreadedHandler(ASGIHandler):
                 async with self._turn(scope) as has_turn:
                     answer = await self._answered(work, None if has_turn else owner)
                 while isinstance(answer, Unfinished):
-                    await _ended(answer.response.work)
+                    if await _is_left(answer.response, receive):
+                        await self.threads.run(asyncio.get_running_loop(), answer.response.close, owner)
+                        return
                     answer = await self._answered(partial(context.run, self._complete, answer), owner)
         except ClientLeftError:
             return
         except BodyRefusedError as error:
-            await _send_and_close(_refusal(scope, error.refused), receive, send)
+            await send_and_close(_refusal(scope, error.refused), receive, send)
             return
-        if answer.file is not None:
-            await self._send_file(answer, answer.file, send)
-        else:
-            await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
-
-    async def _send_file(self, answer: Answer, file: IO[bytes], send: ASGISendCallable) -> None:
-        """Sends a file as fast as the client reads; closes the connection of a client that reads nothing."""
-        with file:
-            await _send(answer, send, last=False)
-            while part := await self._bodies.write(partial(file.read, PART)):
-                async with asyncio.timeout(PATIENCE_S + PART / SLOWEST):
-                    await send({"type": "http.response.body", "body": part, "more_body": True})
-            await send({"type": "http.response.body", "body": b"", "more_body": False})
+        answer = _counted(scope, answer, held)
+        try:
+            if answer.file is not None:
+                await send_file(answer, answer.file, self._bodies.write, send)
+            else:
+                await (send_answer(answer, send) if body.is_whole else send_and_close(answer, receive, send))
+        except SlowReaderError:
+            log.info("a client read its answer too slowly, and was disconnected: %s", scope["path"])
+            await cut(scope)
 
     @asynccontextmanager
     async def _turn(self, scope: HTTPScope) -> AsyncIterator[bool]:
@@ -198,6 +203,29 @@ def _timed(work: Callable[[], Answer | Unfinished]) -> tuple[Answer | Unfinished
     return work(), time.thread_time() - began_s
 
 
+async def _is_left(response: Deferred, receive: ASGIReceiveCallable) -> bool:
+    """Waits for the work of a response; returns whether the client left before, which has ended the work."""
+    if response.cancel is None:
+        await _ended(response.work)
+        return False
+    ended = asyncio.ensure_future(_ended(response.work))
+    leaves = asyncio.ensure_future(_left(receive))
+    await asyncio.wait({ended, leaves}, return_when=asyncio.FIRST_COMPLETED)
+    is_left = not ended.done()
+    leaves.cancel()
+    if is_left:
+        # It may wait, for a socket or a lock; the event loop must not.
+        await asyncio.get_running_loop().run_in_executor(None, response.cancel)
+    await ended
+    return is_left
+
+
+async def _left(receive: ASGIReceiveCallable) -> None:
+    """Waits until the client has left; its body has been received."""
+    if (await receive())["type"] != "http.disconnect":
+        await asyncio.Event().wait()
+
+
 async def _ended(work: Future[Any]) -> None:
     """Waits until the work has succeeded or failed; several callers may wait for the same work."""
     waiting = asyncio.wrap_future(work)
@@ -210,6 +238,20 @@ def _closed(response: Any) -> Answer:
         return Answer(response.status_code, _headers(response), response.getvalue())
     finally:
         response.close()
+        _without_cycles(response)
+
+
+def _without_cycles(response: Any) -> None:
+    """Breaks the cycles of DRF's request, view and response.
+
+    Otherwise all that was sent and answered would stay in memory until the garbage collector comes.
+    """
+    context = vars(response).pop("renderer_context", None) or {}
+    view, request = context.get("view"), context.get("request")
+    if view is not None:
+        vars(view).clear()
+    if request is not None:
+        request.parser_context = {}
 
 
 def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:
@@ -221,36 +263,25 @@ def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:
         scope["headers"] = [*kept, (b"content-length", str(size).encode())]
 
 
-async def _send(answer: Answer, send: ASGISendCallable, *, last: bool = True) -> None:
-    start = {"status": answer.status, "headers": answer.headers, "trailers": False}
-    await send({"type": "http.response.start"} | start)  # type: ignore[arg-type]
-    await send({"type": "http.response.body", "body": answer.body, "more_body": not last})
+def _counted(scope: HTTPScope, answer: Answer, held: Reading) -> Answer:
+    """Counts an answer until it has arrived; returns a refusal instead if too many are on their way.
+
+    The answer to a write is never refused, since the write is done.
+    """
+    size = len(answer.body) if answer.file is None else PART
+    try:
+        held.settle(size, must=scope["method"] not in {"GET", "HEAD"} or answer.status >= 400)
+    except ReadersBusyError as error:
+        if answer.file is not None:
+            answer.file.close()
+        return _refusal(scope, Refused(error.document(), error.headers))
+    return answer
 
 
 def _refusal(scope: HTTPScope, refused: Refused) -> Answer:
     response = problem_response(refused.document, refused.headers)
     secured(scope["path"], response)
     return Answer(response.status_code, _headers(response), response.content)
-
-
-async def _send_and_close(answer: Answer, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Answers before the body has arrived, then closes the connection.
-
-    If the connection closes while the client still sends, TCP resets it and the client loses the answer. So
-    the rest of the body is read and discarded for a while.
-    """
-    kept = [header for header in answer.headers if header[0].lower() != b"content-length"]
-    length = (b"Content-Length", str(len(answer.body)).encode())
-    await _send(answer._replace(headers=[*kept, length, (b"Connection", b"close")]), send, last=False)
-    left = LINGER_BYTES
-    with suppress(TimeoutError):
-        async with asyncio.timeout(LINGER_S):
-            while left > 0:
-                message = await receive()
-                left -= len(message.get("body", b""))  # type: ignore[arg-type]
-                if not message.get("more_body", False):
-                    break
-    await send({"type": "http.response.body", "body": b"", "more_body": False})
 
 
 def _headers(response: Any) -> list[tuple[bytes, bytes]]:

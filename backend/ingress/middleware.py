@@ -14,6 +14,7 @@ from backend.config.environment import environment
 from backend.core import guard
 from backend.core.clients import FORWARDED, address_of, proxies
 from backend.core.problems import problem, problem_response
+from backend.core.scopes import API
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -104,7 +105,7 @@ def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
         response.headers["Content-Security-Policy"] = page_policy()
     for name, value in headers_of_all().items():
         response.headers.setdefault(name, value)
-    if path.startswith("/api/"):
+    if path.startswith(API):
         response.headers.setdefault("Cache-Control", "private, no-cache")
     return response
 
@@ -165,7 +166,7 @@ def exchange(request: HttpRequest, host: str) -> HttpResponse:
 def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
     """Returns the answer to a refused request: HTML for a browser, a problem document for a program."""
     document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
-    if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
+    if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith(API):
         return problem_response(document)
     response = render(request, "config/refused.html", {"problem": document}, status=refusal.status)
     response.headers["Cache-Control"] = "no-store"

@@ -28,7 +28,8 @@ from backend.core.connection_costs import known
 from backend.core.notify import NoNoticesError
 from backend.core.problems import StudioError
 from backend.core.scopes import cookies_of, facts_of, headers_of
-from backend.core.websocket import MOST_BYTES, SMALL_BYTES
+from backend.core.tasks import ended
+from backend.core.websocket import AS_BYTES, MOST_BYTES, SMALL_BYTES
 from backend.ingress.owners import owner_of
 from backend.ingress.turns import turns
 
@@ -52,8 +53,11 @@ OF_A_USER: Final = 100
 """The number of sockets that one user may have open; each page has up to four."""
 OF_AN_ADDRESS: Final = 500
 """The number of sockets that all guests and unidentified clients with one address may have open."""
-HANDSHAKE_S: Final = 0.002
-"""Event-loop time in seconds to open a socket, as measured."""
+HANDSHAKE_S: Final = 0.0035
+"""Processor time in seconds to open a socket, to look up its user, to watch their right and to close it.
+
+As measured: `tests/benchmarks/user_floods.py`, kind `sockets`.
+"""
 AT_THE_DOOR: Final = 2
 """The number of sockets of one owner whose users are looked up at the same time; the others wait."""
 
@@ -82,12 +86,14 @@ class Route(NamedTuple):
     """The function that serves a socket, and the right that the user needs.
 
     `may` receives the id in the path and the user; it raises a StudioError if the user lacks the right. The
-    largest message of a user has `most_bytes`; that of a guest is much smaller.
+    largest message of a user has `most_bytes`; that of a guest is much smaller. With `as_bytes`, the handler
+    gets texts as bytes that it passes on (`backend.core.websocket.IS_TEXT`).
     """
 
     handler: Handler
     may: Callable[[UUID, User], object]
     most_bytes: int = SMALL_BYTES
+    as_bytes: bool = False
 
 
 class Crowd:
@@ -160,7 +166,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
     offered = list(scope.get("subprotocols") or [])
     subprotocol = PROTOCOL if PROTOCOL in offered else None
     most = SMALL_BYTES if user.is_guest else route.most_bytes
-    accept: Any = {"subprotocol": subprotocol, "headers": [], MOST_BYTES: most}
+    accept: Any = {"subprotocol": subprotocol, "headers": [], MOST_BYTES: most, AS_BYTES: route.as_bytes}
     await send({"type": "websocket.accept"} | accept)
     call = Call(address, user, scope["query_string"].decode("latin-1"))
     try:
@@ -191,9 +197,7 @@ async def _while_allowed(
         done, _ = await asyncio.wait((serving, watching), return_when=asyncio.FIRST_COMPLETED)
         return (serving if serving in done else watching).result()
     finally:
-        serving.cancel()
-        watching.cancel()
-        await asyncio.gather(serving, watching, return_exceptions=True)
+        await ended(serving, watching)
 
 
 async def _until_forbidden(route: Route, call: Call, scope: WebSocketScope) -> Closed:

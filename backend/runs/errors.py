@@ -18,7 +18,7 @@ class NoAnswerError(StudioError):
 
     status = 502
     code = "executor_failed"
-    title = "The executor did not answer"
+    title = "The session did not answer"
 
 
 class RunQuotaError(StudioError):

@@ -10,10 +10,8 @@ from __future__ import annotations
 
 import logging
 import shutil
-import tempfile
 import threading
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
@@ -36,6 +34,8 @@ from backend.sessions.models import LIVE_STATES, Session
 from backend.workers.aside import sweeps
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from backend.projects.models import Project
 
 __all__ = ["fetch_last", "sweep", "sweep_soon"]
@@ -82,9 +82,6 @@ def fetch_last(sender: object, *, session: Session, **_: Any) -> None:
         log.info("the last run of session %s is not kept: %s", session.id, error)
 
 
-# --- inside ---
-
-
 def _is_over(name: str) -> bool:
     try:
         session_id = UUID(name)
@@ -112,10 +109,8 @@ def _keep(folder: Path) -> None:
     project = _project(session) if session is not None and runs.is_dir() else None
     if session is None or project is None:
         return
-    place = scratch().folder
-    place.mkdir(parents=True, exist_ok=True, mode=0o700)
-    with tempfile.TemporaryDirectory(dir=place) as made:
-        joined = Path(made) / "run.mcap"
+    with scratch().directory() as made:
+        joined = made / "run.mcap"
         facts = join_newest(runs, joined, f"user {session.user_id}")
         if facts is not None:
             with joined.open("rb") as file:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import tempfile
-from pathlib import Path
 from typing import IO, TYPE_CHECKING, NamedTuple
 
 from django.db import transaction
@@ -86,10 +84,8 @@ def read_log(log: IO[bytes], filename: str, owner: str) -> Recording:
         LogRefusedError: it is no log that can be read.
     """
     name = "".join(part for part in filename if part.isprintable())[-MAX_NAME_LENGTH:].strip() or "log"
-    folder = scratch().folder
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-    with tempfile.TemporaryDirectory(dir=folder) as made:
-        file = convert(log, name, Path(made)).open("rb")
+    with scratch().directory() as made:
+        file = convert(log, name, made).open("rb")
     try:
         return Recording(name, file, facts_of(file, owner))
     except DamagedError as error:

@@ -43,7 +43,7 @@ def require_converter() -> None:
     Raises:
         LogsUnavailableError: files of users are read in containers on this server, and none reads logs.
     """
-    if environment().mode == "team" or environment().launcher != "process":
+    if environment().is_team or environment().has_containers:
         raise LogsUnavailableError(
             "This server does not read logs of robots.",
             hint="Open the log in an IDE on your own computer, or look at it after `bt-studio convert`.",

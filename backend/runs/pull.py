@@ -56,7 +56,7 @@ def pull(  # noqa: PLR0913, PLR0917 - where from, what, where to, and how much
             with contextlib.suppress(_ChangedError):
                 return _pull(address, token, recorded_as, out, most, end_s)
     except (OSError, http.client.HTTPException) as error:
-        raise NoAnswerError("The executor did not give the recording.", hint=_AGAIN) from error
+        raise NoAnswerError("The session did not give the recording.", hint=_AGAIN) from error
     raise NoAnswerError("The recording changed each time that it was read.", hint=_AGAIN)
 
 
@@ -67,7 +67,7 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
     while size < total:
         left_s = end_s - time.monotonic()
         if left_s <= 0:
-            raise NoAnswerError("The executor took too long to give the recording.", hint=_AGAIN)
+            raise NoAnswerError("The session took too long to give the recording.", hint=_AGAIN)
         connection = http_connection(address, min(ANSWER_S, left_s))
         try:
             headers = {"Authorization": f"Bearer {token}", "Range": f"bytes={size}-"}
@@ -98,10 +98,10 @@ def _described(answer: http.client.HTTPResponse, at: int, recorded_as: str) -> t
         )
     named = _RANGE.fullmatch(answer.headers.get("Content-Range", ""))
     if answer.status != http.client.PARTIAL_CONTENT or named is None:
-        raise NoAnswerError("The executor could not put the recording together.", hint=_AGAIN)
+        raise NoAnswerError("The session could not put the recording together.", hint=_AGAIN)
     begin, last, total = (int(text) for text in named.groups())
     if begin != at or not at <= last < total or last - begin >= MOST_PART_BYTES:
-        raise NoAnswerError("The executor gave another part than was asked for.", hint=_AGAIN)
+        raise NoAnswerError("The session gave another part than was asked for.", hint=_AGAIN)
     return last - begin + 1, total
 
 

@@ -106,7 +106,7 @@ def fetch(asked: Source, recorded_as: str, user_id: int, deadline_s: float = DEA
         file.close()
         if isinstance(error, DamagedError):
             raise NoAnswerError(
-                f"What the executor gave is no recording: {error}.", hint="Run again, and keep that run."
+                f"What the session gave is no recording: {error}.", hint="Run again, and keep that run."
             ) from error
         raise
 

@@ -31,7 +31,6 @@ class Sessions(ReadOnly):
         "target",
         "state",
         "launcher",
-        "host",
         "ros_domain_id",
         "ended_at",
     )

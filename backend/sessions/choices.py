@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from django.db import models
 
 
@@ -11,6 +13,10 @@ class SessionKind(models.TextChoices):
     INTERACTIVE = "interactive"
     EVALUATION = "evaluation"
     ATTACHED = "attached"
+
+
+OF_USERS: Final = (SessionKind.INTERACTIVE, SessionKind.ATTACHED)
+"""The kinds of sessions that a page works in."""
 
 
 class SessionState(models.TextChoices):

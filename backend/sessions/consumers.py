@@ -18,7 +18,8 @@ from channels.db import database_sync_to_async
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.core.problems import NotFoundError
-from backend.core.websocket import READ_BYTES, read_at_most
+from backend.core.tasks import ended
+from backend.core.websocket import IS_TEXT, READ_BYTES, read_at_most
 from backend.ingress.owners import user_owner
 from backend.ingress.sockets import ID, Call, Closed
 from backend.ingress.turns import turns as shares
@@ -27,20 +28,26 @@ from backend.sessions.choices import SessionState
 from backend.sessions.lifecycle import writes
 from backend.sessions.maintenance import attendance, say
 from backend.sessions.manager.sockets import manager_socket
+from backend.sessions.turns import turn_of
 from backend.sessions.watch import watchmen, why
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
     from websockets.asyncio.client import ClientConnection
 
     from backend.accounts.models import User
     from backend.sessions.models import Session
+    from backend.sessions.turns import Turn
 
 log = logging.getLogger(__name__)
 
 ADDRESS: Final = re.compile(rf"^/ws/sessions/{ID}/(control|stream)$")
-PING: Final = re.compile(r'"command"\s*:\s*"ping"')
+PING: Final = re.compile(rb'"command"\s*:\s*"ping"')
 LONGEST_PING: Final = 100
+PART_BYTES: Final = 256 << 10
+"""Bytes of one frame to a manager: a large message is sent in several, and never copied as a whole."""
 MESSAGES_IN_TURN: Final = 4
 MESSAGE_S: Final = 0.00015
 BYTE_S: Final = 2e-9
@@ -98,7 +105,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
                 closed = await _relay(manager, noted, send, user_owner(user.pk))
     except (OSError, InvalidHandshake, TimeoutError) as error:
         log.warning("session %s: no %s socket: %s", session_id, channel, error)
-        closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")
+        closed = Closed(EXECUTOR_FAILED, "The session does not answer.")
     finally:
         attendance.leave(session_id, send)
     if closed is None:
@@ -114,14 +121,14 @@ def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallab
 
     async def receive_and_note() -> Any:
         message: Any = await receive()
-        if not _is_ping(message.get("text") or ""):
+        if not _is_ping(message.get("bytes") or b""):
             attendance.use(session_id)
         return message
 
     return receive_and_note
 
 
-def _is_ping(text: str) -> bool:
+def _is_ping(text: bytes) -> bool:
     """Returns whether the request only checks whether its session hangs; pages send it without a user."""
     return len(text) <= LONGEST_PING and PING.search(text) is not None
 
@@ -148,19 +155,18 @@ def _ended(session: Session) -> Closed:
 async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:
     """Waits until the session neither waits nor starts, and returns it.
 
-    A waiting browser is sent its position.
+    A waiting browser is sent how many go before it.
     """
     find = database_sync_to_async(lambda: queries.session(session_id, user=user))
-    told: int | None = None
+    told: Turn | None = None
     # Another web server may be starting it: so this polls the database and waits for no local event.
     session: Session = await find()
     while session.state in {SessionState.QUEUED, SessionState.STARTING}:
         is_queued = session.state == SessionState.QUEUED
-        place = await database_sync_to_async(queries.position)(session) if is_queued else None
-        if place != told and place is not None and send is not None:
-            text = f"The server is full; this session is number {place} of those that wait."
-            await say(send, "progress", {"rung": "connect", "fraction": 0, "message": text})
-        told = place
+        turn = await database_sync_to_async(turn_of)(session) if is_queued else None
+        if turn != told and send is not None:
+            await say(send, "queued", {"before": None, "is_own": False} if turn is None else turn._asdict())
+        told = turn
         await asyncio.sleep(QUEUE_POLL_S if is_queued else POLL_S)
         session = await find()
     return session
@@ -176,9 +182,7 @@ async def _relay(
         first = up if up in done else down
         return await first
     finally:
-        for task in (up, down):
-            task.cancel()
-        await asyncio.gather(up, down, return_exceptions=True)
+        await ended(up, down)
 
 
 async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConnection) -> Closed | None:
@@ -189,12 +193,19 @@ async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConne
             code = message.get("code") or 1000
             await manager.close(code if code in {1000, 1001} or 3000 <= code < 5000 else GOING_AWAY)
             return None
-        payload = message.get("text")
         try:
-            await manager.send(message["bytes"] if payload is None else payload)
+            await manager.send(_parts(message["bytes"]), text=message.get(IS_TEXT, False))
         except ConnectionClosed as error:
             return _closed_by(error)
         await turns.next()
+
+
+def _parts(data: bytes) -> bytes | Iterator[memoryview]:
+    """Returns a message for a manager: as it is, or the parts of a large one."""
+    if len(data) <= PART_BYTES:
+        return data
+    view = memoryview(data)
+    return (view[at : at + PART_BYTES] for at in range(0, len(view), PART_BYTES))
 
 
 async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable, owner: str) -> Closed | None:
@@ -234,5 +245,5 @@ class _Turns:
 
 def _closed_by(error: ConnectionClosed) -> Closed:
     if error.rcvd is None or error.rcvd.code in {1005, 1006}:
-        return Closed(EXECUTOR_FAILED, "The connection to the executor was lost.")
+        return Closed(EXECUTOR_FAILED, "The connection to the session was lost.")
     return Closed(error.rcvd.code, error.rcvd.reason)

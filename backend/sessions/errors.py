@@ -10,7 +10,7 @@ class LaunchError(StudioError):
 
     status = 503
     code = "session_failed"
-    title = "The executor did not start"
+    title = "The session did not start"
 
 
 class DrainingError(StudioError):
@@ -35,6 +35,14 @@ class AttachingLocalError(StudioError):
     status = 403
     code = "attaching_is_local"
     title = "This server cannot be attached to a robot"
+
+
+class OwnPlacesTakenError(StudioError):
+    """So many robots of the user wait that one more may not."""
+
+    status = 409
+    code = "own_places_taken"
+    title = "Too many of your robots wait"
 
 
 class HostFullError(StudioError):

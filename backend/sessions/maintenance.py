@@ -15,6 +15,7 @@ import json
 import logging
 import time
 from collections import defaultdict
+from contextlib import contextmanager
 from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
@@ -26,6 +27,7 @@ from django.utils import timezone
 from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
 from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.idleness import Ages
 from backend.sessions.lease import CARE, holder, is_alone
 from backend.sessions.lifecycle import drain, orphans, writes
 from backend.sessions.manager.holds import is_held
@@ -47,6 +49,7 @@ LEASE_S: Final = 3 * EVERY_S
 """Seconds without a sign of life from the holder of the lease after which another server takes it."""
 ROUNDS_TO_ORPHANS: Final = 12
 WARNING: Final = timedelta(minutes=5)
+_AT_ONCE: Final = timedelta(seconds=1)
 
 
 class Attendance:
@@ -103,6 +106,8 @@ class Attendance:
 
 
 attendance: Final = Attendance()
+ages_of_use: Final = Ages()
+"""How long each session has not been used."""
 
 
 async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) -> None:
@@ -169,30 +174,44 @@ def _give_back() -> None:
 def note_used(used: Mapping[UUID, float]) -> None:
     """Stores when each session was last used on this server, unless another server stored a later time.
 
+    A time in the future was stored before the clock was set back.
+
     Args:
         used: the seconds since the last use, by session.
     """
     now = timezone.now()
     for session_id, seconds in used.items():
         at = now - timedelta(seconds=seconds)
-        Session.objects.filter(Q(used_at=None) | Q(used_at__lt=at), id=session_id).update(used_at=at)
+        is_older = Q(used_at=None) | Q(used_at__lt=at) | Q(used_at__gt=now)
+        Session.objects.filter(is_older, id=session_id).update(used_at=at)
 
 
 def maintain(*, is_for_orphans: bool = False) -> None:
-    """Runs one round of maintenance for all servers."""
-    news = writes.launcher().look_at_hosts()
-    writes.fail_lost(news.lost)
-    if is_for_orphans or news.has_returned:
-        orphans.end_orphans()
+    """Runs one round of maintenance for all servers; a step that fails does not stop the others."""
     if is_for_orphans:
-        writes.launcher().tidy()
-        end_leftovers()
+        for chore in (orphans.end_orphans, writes.launcher().tidy, end_leftovers):
+            with _step("what earlier servers left was not ended"):
+                chore()
     for session in ready_sessions():
-        writes.refresh(session)
+        with _step("session %s was not looked at", session.id):
+            writes.refresh(session)
     end_idle()
-    writes.start_queued()
-    keep_warm()
+    with _step("waiting sessions were not started"):
+        writes.start_queued()
+    with _step("no executors were kept warm"):
+        keep_warm()
     sessions_maintained.send_robust(Session)
+
+
+@contextmanager
+def _step(failure: str, *values: object) -> Iterator[None]:
+    """Logs an error of one step of the round; without the database no step is possible."""
+    try:
+        yield
+    except Error:
+        raise
+    except Exception:
+        log.exception(failure, *values)
 
 
 def ready_sessions() -> list[Session]:
@@ -205,7 +224,8 @@ def end_idle() -> None:
     for session, left in _unused():
         if left <= timedelta(0):
             log.info("session %s is idle and is ended", session.id)
-            writes.end_session(session, "It was ended because it was not used.")
+            with _step("the idle session %s was not ended", session.id):
+                writes.end_session(session, "It was ended because it was not used.")
 
 
 def ending_soon() -> dict[UUID, int]:
@@ -222,10 +242,11 @@ def _unused() -> list[tuple[Session, timedelta]]:
     limit = timedelta(minutes=environment().session_idle_minutes)
     if not limit:
         return []
-    now = timezone.now()
-    rows = Session.objects.filter(
-        state=SessionState.READY, kind=SessionKind.INTERACTIVE, used_at__lt=now - limit + WARNING
-    )
+    ready = Session.objects.filter(state=SessionState.READY, kind=SessionKind.INTERACTIVE)
+    times = {session.id: session.used_at or session.created_at for session in ready}
+    # After a start of the server nobody is ended without a warning.
+    ages = ages_of_use.of(times, at_first=limit - WARNING)
+    rows = [session for session in ready if ages[session.id] > limit - WARNING - _AT_ONCE]
     held = [session for session in rows if is_held(session)]
     note_used({session.id: 0.0 for session in held})
-    return [(session, limit - (now - (session.used_at or now))) for session in rows if session not in held]
+    return [(session, limit - ages[session.id]) for session in rows if session not in held]

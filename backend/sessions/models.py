@@ -62,8 +62,6 @@ class Session(models.Model):
     address = models.CharField(max_length=200, blank=True)
     # Whether it is an evaluation with a Ray cluster of its own.
     own_cluster = models.BooleanField(default=False, db_default=False)
-    # A server of the release before, which may serve at the same time, writes no host.
-    host = models.CharField(max_length=270, blank=True, default="", db_default="")
     ros_domain_id = models.PositiveSmallIntegerField(null=True)
     error = models.TextField(blank=True)
     created_at = models.DateTimeField()

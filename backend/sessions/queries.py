@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from django.db.models import Count
 
 from backend.config.environment import environment
 from backend.core.problems import NotFoundError
-from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.choices import OF_USERS, SessionKind
 from backend.sessions.models import LIVE_STATES, Session
 
 if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
-
-
-OF_USERS: Final = (SessionKind.INTERACTIVE, SessionKind.ATTACHED)
-"""The kinds of sessions that a page works in."""
 
 
 def session(session_id: UUID, *, user: User) -> Session:
@@ -48,14 +44,10 @@ def live_sessions() -> list[Session]:
     return list(Session.objects.filter(state__in=LIVE_STATES))
 
 
-def position(session: Session) -> int | None:
-    """Returns the position of a session in the queue, from 1; None if it does not wait."""
-    if session.state != SessionState.QUEUED:
-        return None
-    earlier = Session.objects.filter(
-        state=SessionState.QUEUED, kind__in=OF_USERS, created_at__lt=session.created_at
-    )
-    return earlier.count() + 1
+def sessions_of(user: User) -> list[Session]:
+    """Returns the sessions of a user that wait, start or run, the oldest first."""
+    rows = Session.objects.filter(user=user, kind__in=OF_USERS, state__in=LIVE_STATES)
+    return list(rows.select_related("project").order_by("created_at"))
 
 
 def counts() -> dict[str, int]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rest_framework import serializers
 
-from backend.sessions import queries
+from backend.sessions import turns
 from backend.sessions.choices import SessionKind, SessionState
 
 if TYPE_CHECKING:
@@ -27,7 +27,22 @@ class SessionSerializer(serializers.Serializer[Any]):
     position = serializers.IntegerField(
         allow_null=True, help_text="Place in the queue, from 1, while it waits for one on the server."
     )
+    waits_for_own = serializers.BooleanField(
+        help_text="Whether it waits until another session of its user ends, not until the server has room."
+    )
     created_at = serializers.DateTimeField()
+
+
+class OwnSessionSerializer(SessionSerializer):
+    """A session of the user that waits, starts or runs."""
+
+    project_name = serializers.CharField(help_text="Empty for an attached session.")
+
+
+class OwnSessionListSerializer(serializers.Serializer[Any]):
+    """The sessions of the user that wait, start or run, the oldest first."""
+
+    items = OwnSessionSerializer(many=True)
 
 
 class AttachSerializer(serializers.Serializer[Any]):
@@ -40,6 +55,7 @@ class AttachSerializer(serializers.Serializer[Any]):
 
 def presented(session: Session) -> dict[str, Any]:
     """Returns a session in the form for the API."""
+    turn = turns.turn_of(session)
     return {
         "id": str(session.id),
         "kind": session.kind,
@@ -49,6 +65,12 @@ def presented(session: Session) -> dict[str, Any]:
         "control_url": f"/ws/sessions/{session.id}/control",
         "stream_url": f"/ws/sessions/{session.id}/stream",
         "error": session.error,
-        "position": queries.position(session),
+        "position": None if turn is None else turn.before + 1,
+        "waits_for_own": turn is not None and turn.is_own,
         "created_at": session.created_at.isoformat(),
     }
+
+
+def presented_own(session: Session) -> dict[str, Any]:
+    """Returns a session of the user, with the name of its project."""
+    return presented(session) | {"project_name": session.project.name if session.project else ""}

@@ -11,7 +11,13 @@ from rest_framework.views import APIView
 from backend.accounts.api.requests import user_of
 from backend.sessions import queries
 from backend.sessions.lifecycle import attaching, writes
-from backend.sessions.serializers import AttachSerializer, SessionSerializer, presented
+from backend.sessions.serializers import (
+    AttachSerializer,
+    OwnSessionListSerializer,
+    SessionSerializer,
+    presented,
+    presented_own,
+)
 
 if TYPE_CHECKING:
     from uuid import UUID
@@ -28,6 +34,15 @@ class ProjectSession(APIView):
     def post(self, request: Request, project_id: UUID) -> Response:
         """Starts an executor for the project, or returns the session that already runs."""
         return Response(presented(writes.start_session(project_id, acting_user=user_of(request))))
+
+
+class OwnSessions(APIView):
+    """The sessions of the user."""
+
+    @extend_schema(operation_id="list_sessions", responses=OwnSessionListSerializer, tags=["sessions"])
+    def get(self, request: Request) -> Response:
+        """Lists the user's sessions that wait, start or run, so that one may be ended."""
+        return Response({"items": [presented_own(each) for each in queries.sessions_of(user_of(request))]})
 
 
 class AttachedSessions(APIView):

@@ -24,6 +24,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidSta
 from websockets.protocol import State
 
 from backend.config.environment import environment
+from backend.core.tasks import ended
 from backend.sessions.lifecycle import writes
 from backend.sessions.manager.sockets import manager_socket
 
@@ -51,7 +52,7 @@ def longest_s() -> float:
 
 def why() -> str:
     """Returns the text that explains the end of a session whose manager was silent."""
-    return f"The executor did not answer for {longest_s():g} s, so it was ended."
+    return f"The session did not answer for {longest_s():g} s, so it was ended."
 
 
 class Silence:
@@ -176,8 +177,7 @@ async def until_silent(session: Session) -> None:
     try:
         await _pulses.setdefault(asyncio.get_running_loop(), Pulse()).until_silent(watched)
     finally:
-        keeping.cancel()
-        await asyncio.gather(keeping, return_exceptions=True)
+        await ended(keeping)
 
 
 async def _keep_open(watched: Watched) -> None:
@@ -238,9 +238,6 @@ class Watchmen:
 async def _look_after(session: Session) -> None:
     await until_silent(session)
     try:
-        while not await asyncio.to_thread(writes.is_reached, session):
-            # `maintenance` gives up the host if it stays away; the executor may be well.
-            await until_silent(session)
         await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
         # The next round of maintenance starts it again.

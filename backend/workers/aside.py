@@ -51,8 +51,10 @@ class Aside:
             try:
                 self._queue.put(owner, task)
             except QueueFullError:
-                sentence = "The server has too much of this to do at the moment."
-                raise BusyError(sentence, hint="Try again in a few seconds.") from None
+                raise BusyError(
+                    "The server has too much of this to do at the moment.",
+                    hint="Try again in a few seconds.",
+                ) from None
             if len(self._threads) < self._number:
                 thread = threading.Thread(target=self._serve, name=self._name, daemon=True)
                 self._threads.append(thread)
@@ -87,7 +89,9 @@ class Aside:
 
 
 unpacking: Final = Aside("unpacking", threads=2, per_owner=1, waiting=8)
+packing: Final = Aside("packing", threads=2, per_owner=1, waiting=16)
 conversions: Final = Aside("conversions", threads=2, per_owner=1, waiting=8)
+importing: Final = Aside("importing", threads=2, per_owner=1, waiting=8)
 pulls: Final = Aside("pulls", threads=4, per_owner=1, waiting=64)
 sweeps: Final = Aside("sweeps", threads=1, per_owner=1, waiting=1)
 checkers: Final = Aside("checkers", threads=4, per_owner=2, waiting=32)

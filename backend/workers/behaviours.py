@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import functools
+import logging
 import time
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from translator import Project
+    from translator.diagnostic import Diagnostic as TreeDiagnostic
     from tree_gardener.errors import Diagnostic
     from tree_gardener.testing import Case, Result
     from tree_gardener.testing.job import Job
 
+log = logging.getLogger(__name__)
+
 PROCESSOR_S: Final = 6.0
 """The processor time for all tests of one request; the tests after it are not run."""
+CHECK_S: Final = 2.0
+"""The processor time to find what is wrong with the tests, after each save: a part of the job's deadline."""
 
 LETTERS: Final = {"S": "SUCCESS", "F": "FAILURE", "R": "RUNNING", "K": "SKIPPED"}
 """The letters of an outcome's `seen`."""
@@ -81,6 +89,59 @@ def run_coverage(files: dict[str, bytes], seen: dict[str, str]) -> dict[str, Any
             if letters
         },
     )
+
+
+def problems(project: Project, checked: Sequence[TreeDiagnostic]) -> list[dict[str, Any]]:
+    """Returns what keeps the tests of a project from being run, as diagnostics of the translator.
+
+    If they cannot be checked, or only beyond `CHECK_S`, one diagnostic says so: the report of the project
+    must not fail with them.
+    """
+    import tree_gardener.testing.job  # noqa: PLC0415, F401 - the limits do not count its import
+    from translator.diagnostic import Place, diagnostic  # noqa: PLC0415 - as above
+    from tree_gardener.testing.limits import OverLimitError, memory, processor_time  # noqa: PLC0415
+
+    try:
+        with memory(), processor_time(CHECK_S):
+            return [_problem(found) for found in problems_of_tests(project, checked)]
+    except OverLimitError:
+        reason = f"they need more than {CHECK_S:g} s of processor time"
+    except MemoryError:
+        reason = "they need too much memory"
+    except Exception as error:
+        log.exception("the tests of a project could not be checked")
+        reason = type(error).__name__
+    return [diagnostic("BT0025", Place(), problem=reason).to_json()]
+
+
+def problems_of_tests(project: Project, checked: Sequence[TreeDiagnostic] | None = None) -> list[Diagnostic]:
+    """Returns what keeps the tests of a project from being run, as running them would report it.
+
+    No tree is ticked. The names of trees, nodes and ports are looked at only if the trees have no errors.
+
+    Args:
+        project: the project.
+        checked: what the translator's check found in it; without it, the project is checked now.
+    """
+    from translator.behaviour_tests import (  # noqa: PLC0415 - as above
+        errors_before_tests,
+        paths_of_tests,
+        read_files,
+        to_job,
+    )
+    from tree_gardener.testing.job import Job  # noqa: PLC0415 - as above
+    from tree_gardener.testing.reading import read_tests  # noqa: PLC0415 - as above
+
+    if not paths_of_tests(project.files):
+        return []
+    if not errors_before_tests(project, checked):
+        document, found = to_job(project)
+        job = Job.from_json(document)
+        return found + job.cases(job.suite())[1]
+    read, found = read_files(project.files)
+    for path, text in read.items():
+        found += read_tests(text.value, path, text.place)[1]
+    return found
 
 
 def _job(files: dict[str, bytes]) -> tuple[Project, Job, list[Diagnostic]]:

@@ -26,6 +26,7 @@ class Deferred(HttpResponse):
         request: the request.
         work: the future with the result of the work.
         finish: makes the answer from the result, in a request thread; it may return another Deferred.
+        cancel: ends the work if the client leaves meanwhile, and nothing is finished; without it all is done.
     """
 
     streaming = True  # there is no content yet for a middleware
@@ -36,11 +37,18 @@ class Deferred(HttpResponse):
         request: Request,
         work: Future[Any],
         finish: Callable[[Future[Any]], HttpResponseBase],
+        *,
+        cancel: Callable[[], object] | None = None,
     ) -> None:
         super().__init__()
         del self.headers["Content-Type"]
         self.work = work
+        self.cancel = cancel
         self._view, self._request, self._finish = view, request, finish
+
+    def close_with(self, close: Callable[[], object]) -> None:
+        """Calls a function when the answer is closed, or when there will be none."""
+        cast("Any", self)._resource_closers.append(close)
 
     def rest(self) -> None:
         """Releases the connection to the database during the wait; the request and its files stay open."""

@@ -1,23 +1,18 @@
 """Errors of jobs in the pool.
 
 StudioError
-├─ BusyError         503, with Retry-After: too many jobs wait
+├─ BusyError         503, with Retry-After: too many jobs wait, or workers were ended from outside
 ├─ TookTooLongError  422: the job exceeded its deadline, the worker was killed
-└─ WorkFailedError   422: the worker crashed, usually for lack of memory
+└─ WorkFailedError   422: the job crashed its worker, usually for lack of memory
 """
 
 from __future__ import annotations
 
-from backend.core.problems import StudioError
+from backend.core.problems import ServerBusyError, StudioError
 
 
-class BusyError(StudioError):
-    """Too many jobs wait for a worker."""
-
-    status = 503
-    code = "busy"
-    title = "The server is busy"
-    retry_after_s = 5
+class BusyError(ServerBusyError):
+    """Too many jobs wait for a worker, or something else than the job has ended its workers."""
 
 
 class TookTooLongError(StudioError):
@@ -29,7 +24,7 @@ class TookTooLongError(StudioError):
 
 
 class WorkFailedError(StudioError):
-    """The worker died while it did the job."""
+    """The job ended its worker, or failed by a fault of BT Studio."""
 
     status = 422
     code = "work_failed"

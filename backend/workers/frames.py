@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 PREFIX: Final = struct.Struct("!Q")
 MAX_BYTES: Final = 1 << 30
+OUT_OF_MEMORY: Final = 73
+"""The exit code of a worker whose job needs more memory than it may use."""
 
 
 class FrameError(Exception):

@@ -5,19 +5,16 @@ If the translator refuses the input, the answer is normal: `{"refused": [diagnos
 
 from __future__ import annotations
 
-import base64
-import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
-from backend.workers import differences, thumbnails, zips
+from backend.workers import bundles, differences, offered, thumbnails, zips
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from translator import Tree
     from translator.tree_text import TreeText
-
-_OWN_ROBOT: Final = re.compile(r"robots/[^/]+/robot\.yaml")
 
 Files = dict[str, bytes]
 Answer = dict[str, Any]
@@ -39,8 +36,23 @@ def report(files: Files) -> Answer:
         project = translator.load(files)
     except translator.TranslatorError as error:
         return {"diagnostics": _told(error), "actions": []}
-    diagnostics = [found.to_json() for found in translator.check(project)]
+    checked = translator.check(project)
+    diagnostics = [found.to_json() for found in checked]
+    diagnostics += _programs(files)
+    if any(path.startswith("tests/") for path in files):
+        from backend.workers.behaviours import problems  # noqa: PLC0415 - it loads the engine
+
+        diagnostics += problems(project, checked)
     return {"diagnostics": diagnostics, "actions": [action.to_json() for action in project.actions.values()]}
+
+
+def _programs(files: Files) -> list[Answer]:
+    """Returns a note about each file of a robot that has macros: these run in no worker."""
+    from translator.diagnostic import Place, diagnostic  # noqa: PLC0415 - as above
+
+    paths = sorted(path for path in files if path.startswith("robots/") and path.endswith(".xacro"))
+    mains = [path for path in paths if f"{'/'.join(path.split('/')[:2])}/robot.yaml" in files]
+    return [diagnostic("BT0915", Place(path), file=path).to_json() for path in mains]
 
 
 def behaviour_tests(files: Files, *, with_job: bool = False) -> Answer:
@@ -65,89 +77,6 @@ def xml(files: Files, *, self_contained: bool) -> Answer:
     return {"text": translator.self_contained(project) if self_contained else translator.to_xml(project)}
 
 
-def app(files: Files, *, universe: str, built_in: bytes | None, revision: int) -> Answer:
-    """Returns the data of the command with which the browser runs the project in the executor.
-
-    Args:
-        files: the files of the project.
-        universe: the name of the universe; "" for the project's own choice.
-        built_in: the document of the built-in universe of that name, if the project has none.
-        revision: the revision of the project.
-    """
-    import translator  # noqa: PLC0415
-
-    project = translator.load(files)
-    settings = project.settings
-    return {
-        "app_zip_base64": base64.b64encode(translator.to_app_zip(project)).decode("ascii"),
-        "tick_hz": settings.tick_hz,
-        "on_finish": settings.on_finish,
-        "on_error": settings.on_error,
-        "time": settings.time,
-        "universe": _universe(files, universe or settings.universe, built_in),
-        "robot": settings.robot,
-        "revision": revision,
-    }
-
-
-def _universe(files: Files, name: str, built_in: bytes | None) -> str | dict[str, str]:
-    """Returns a universe of the project as a document with its assets, or the id of a built-in one.
-
-    If the project has custom robots, a built-in universe is also returned as a document, which includes them.
-    """
-    from translator.diagnostic import Place, TranslatorError, diagnostic  # noqa: PLC0415
-
-    path = f"universes/{name}.yaml"
-    document = files.get(path)
-    if document is None and any(_OWN_ROBOT.fullmatch(path) for path in files):
-        document = built_in
-    if document is None:
-        return name
-    try:
-        text = document.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise TranslatorError([diagnostic("BT0002", Place(path), byte=error.start)]) from error
-    assets = {p: data for p, data in files.items() if p.startswith(("assets/", "robots/", "universes/"))}
-    packed = base64.b64encode(zips.pack(assets)).decode("ascii")
-    return {"document": text, "assets_zip_base64": packed, "file": path}
-
-
-def app_zip(files: Files) -> Answer:
-    """Returns the app for the manager as a zip."""
-    import translator  # noqa: PLC0415
-
-    return {"zip": translator.to_app_zip(translator.load(files))}
-
-
-def package(files: Files, *, name: str | None) -> Answer:
-    """Returns a zip of the ROS 2 package and of the engine's package."""
-    import translator  # noqa: PLC0415
-
-    made = translator.to_ros2_package(translator.load(files), name=name)
-    return {"name": made.name, "zip": made.to_zip()}
-
-
-def package_preview(files: Files, *, name: str | None) -> Answer:
-    """Returns the files of the ROS 2 package."""
-    import translator  # noqa: PLC0415
-
-    made = translator.to_ros2_package(translator.load(files), name=name)
-    return {
-        "name": made.name,
-        "files": [{"path": path, "size": len(data)} for path, data in sorted(made.files.items())],
-        "manifest": made.files.get(f"{made.name}/package.xml", b"").decode(),
-        "diagnostics": [found.to_json() for found in made.diagnostics],
-    }
-
-
-def cpp_package(files: Files, *, name: str | None) -> Answer:
-    """Returns a zip of the package for BehaviorTree.CPP."""
-    import translator  # noqa: PLC0415
-
-    made = translator.to_cpp_package(translator.load(files), name=name)
-    return {"name": made.name, "zip": made.to_zip()}
-
-
 def models(files: Files) -> Answer:
     """Returns the models of the project's nodes."""
     import translator  # noqa: PLC0415
@@ -162,16 +91,25 @@ def xsd(files: Files) -> Answer:
     return {"text": translator.to_xsd(translator.load(files))}
 
 
-def opened(files: Files, *, name: str, repair: bool) -> Answer:
+ASK: Final = "ask"
+"""The order of an import whose user is asked where the project's own order leaves a branch out."""
+
+
+def opened(files: Files, *, name: str, repair: bool, main: str = "", order: str = "") -> Answer:
     """Returns a new project, made from a project of JdeRobot or Groot2, or from BT.CPP XML.
 
     `proposal` names the universe that the project got, and the topics that ask for it; without such topics it
     is null. `repair` escapes bare `&` and `<` in attributes of XML; the client offers it if the XML cannot be
-    read.
+    read. `main` is the main tree, or its file, which the client asks for if several could be. `order` is that
+    of children on JdeRobot's canvas; with `ask`, an own order that leaves a branch out is refused (BT0811).
     """
     import translator  # noqa: PLC0415
 
-    project = translator.open_files(files, name=name, repair=repair)
+    used = "" if order == ASK else order
+    project = translator.open_files(files, name=name, repair=repair, main=main, order=used)
+    left_out = [found for found in project.diagnostics if found.code == "BT0811"]
+    if order == ASK and left_out:
+        raise translator.TranslatorError(left_out)
     proposals = (dict(found.values) for found in project.diagnostics if found.code == "BT0742")
     return {"files": dict(project.files), "proposal": next(proposals, None)}
 
@@ -179,8 +117,10 @@ def opened(files: Files, *, name: str, repair: bool) -> Answer:
 def inspect(source: str, *, filename: str) -> Answer:
     """Returns the declarations in the source of an action."""
     import translator  # noqa: PLC0415
+    from translator.check.sources import source_findings  # noqa: PLC0415
 
-    return translator.inspect_action(source, filename).to_json()
+    action = translator.inspect_action(source, filename)
+    return replace(action, diagnostics=source_findings(action)).to_json()
 
 
 def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
@@ -267,15 +207,12 @@ JOBS: Final[dict[str, Callable[..., Answer]]] = {
             behaviour_tests,
             run_coverage,
             xml,
-            app,
-            app_zip,
-            package,
-            package_preview,
-            cpp_package,
+            bundles.bundle,
+            bundles.package_preview,
             models,
             xsd,
             opened,
         ),
-        *(inspect, write_tree, read_tree, pack, diff, thumbnail),
+        *(inspect, write_tree, read_tree, pack, diff, thumbnail, offered.uses),
     )
-}
+} | {kind: _refusing(bundles.whole(kind)) for kind in bundles.KINDS}

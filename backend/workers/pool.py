@@ -23,14 +23,21 @@ from cachetools import LRUCache
 
 from backend.config.environment import REPOSITORY
 from backend.core.processes.fair import FairQueue, QueueFullError
+from backend.core.processes.memory import ANSWERS_MIB, MEBIBYTE
 from backend.workers import frames
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 
 log = logging.getLogger(__name__)
 
-KEPT_BYTES: Final = 64 << 20
+KEPT_BYTES: Final = ANSWERS_MIB * MEBIBYTE // 2
+"""Bytes of results that each of the two pools keeps."""
 LARGEST_KEPT_BYTES: Final = 8 << 20
 MOST_TOO_LONG: Final = 1000
+ATTEMPTS: Final = 2
+ENDING_S: Final = 1.0
+"""How long a process may take to end after its connection has ended."""
+CRASHES: Final = {signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGILL, signal.SIGFPE, signal.SIGTRAP}
+"""Signals by which the work itself ends its process; a library may crash where memory is short."""
 SMALLER: Final = "Make the project smaller: split it, or remove what it does not need."
 
 
@@ -140,7 +147,7 @@ class Pool:
         for worker in workers:
             worker.thread.join()
         while (taken := self._queue.take()) is not None:
-            taken[1].future.set_exception(WorkFailedError("The server stops."))
+            taken[1].future.set_exception(_stops())
         atexit.unregister(self.close)
 
     def next(self) -> tuple[str, _Job] | None:
@@ -178,6 +185,15 @@ class Pool:
     def limits(self) -> Limits:
         """The limits of this pool."""
         return self._limits
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the pool is closed."""
+        return self._is_closed
+
+
+def _stops() -> BusyError:
+    return BusyError("The server stops.", hint="Try again in a few seconds.")
 
 
 def _too_long(limits: Limits) -> TookTooLongError:
@@ -226,6 +242,8 @@ class _Worker:
             except Exception as error:  # the waiting caller must get every error
                 answer = error
             self._pool.done(owner, job, answer)
+            del taken, job, answer  # nothing of a job stays with a thread that waits
+        self.kill()
         self._end()
 
     def _next(self) -> tuple[str, _Job] | None:
@@ -238,25 +256,37 @@ class _Worker:
         return self._pool.next()
 
     def _done(self, job: _Job) -> bytearray:
+        """Does a job, which changes nothing: if its process is ended from outside, another one does it."""
         limits = self._pool.limits
+        for _ in range(ATTEMPTS):
+            try:
+                return self._tried(job, limits)
+            except TimeoutError:
+                self.kill()
+                self._end()
+                raise _too_long(limits) from None
+            except frames.FrameError:
+                code = self._end()
+                log.warning("a worker %s", _ending(code))
+                if (error := _by_job(code, limits)) is not None:
+                    raise error from None
+                if self._pool.is_closed:
+                    raise _stops() from None
+        raise BusyError(
+            "The processes that did the work were ended from outside.", hint="Try again in a few seconds."
+        )
+
+    def _tried(self, job: _Job, limits: Limits) -> bytearray:
         connection = self._connected(limits)
         connection.settimeout(limits.deadline_s)
-        try:
-            frames.send(connection, job.packed)
-            return frames.receive(connection)
-        except TimeoutError:
-            self._end()
-            raise _too_long(limits) from None
-        except frames.FrameError:
-            reason = self._end()
-            log.warning("a worker %s", reason)
-            raise WorkFailedError(
-                f"The work needed more than a worker may use: it {reason}.", hint=SMALLER
-            ) from None
+        frames.send(connection, job.packed)
+        return frames.receive(connection)
 
     def _connected(self, limits: Limits) -> socket.socket:
-        if self._connection is not None:
-            return self._connection
+        if self._connection is not None and self._process is not None:
+            if self._process.poll() is None:
+                return self._connection
+            log.warning("a worker without work %s", _ending(self._end()))
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
@@ -276,17 +306,39 @@ class _Worker:
         self._connection = ours
         return ours
 
-    def _end(self) -> str:
-        """Ends the process; returns a text that tells how it ended."""
+    def _end(self) -> int | None:
+        """Ends the process; returns its exit code, or None if it did not end by itself."""
         connection, self._connection = self._connection, None
         process, self._process = self._process, None
         if connection is not None:
             connection.close()
         if process is None:
-            return "was not there"
+            return None
+        with suppress(subprocess.TimeoutExpired):
+            return process.wait(ENDING_S)
         process.kill()
-        code = process.wait()
-        return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
+        process.wait()
+        return None
+
+
+def _ending(code: int | None) -> str:
+    if code is None:
+        return "was ended"
+    return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
+
+
+def _by_job(code: int | None, limits: Limits) -> Exception | None:
+    """Returns the error of a job that has ended its process itself; None if something else ended it."""
+    if code == frames.OUT_OF_MEMORY:
+        most = limits.memory_bytes >> 20
+        return WorkFailedError(
+            f"The work needed more than a worker may use: {most} MB of memory.", hint=SMALLER
+        )
+    if code == -signal.SIGALRM:
+        return _too_long(limits)
+    if code is None or -code in CRASHES:
+        return WorkFailedError("The work made the process crash that did it.", hint=SMALLER)
+    return None
 
 
 # A worker reads users' files, so its environment has only what Python needs, and no secret of the server.

@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
+from backend.core.processes.memory import MEBIBYTE, limit_mib
 from backend.core.processes.siblings import POOL, siblings
 from backend.workers.pool import Limits, Pool, packed_job
 from backend.workers.remote import RemotePool
@@ -19,10 +20,6 @@ from backend.workers.remote import RemotePool
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
-SMALL_WORKERS: Final = {"local": 1, "team": 2}
-"""Number of processes for small work, by mode."""
-LARGE_WORKERS: Final = {"local": 1, "team": max(2, os.cpu_count() or 1)}
-"""Number of processes for large work, by mode."""
 PER_OWNER: Final = 1
 """Number of jobs of one owner that may be in progress in each of the two pools."""
 NICENESS: Final = 10
@@ -38,7 +35,6 @@ LARGE_WAITING: Final = 4
 
 Small jobs take milliseconds, so many of them may wait.
 """
-MEMORY_BYTES: Final = 1 << 30
 SMALL_BYTES: Final = 256 << 10
 """The largest arguments of a small job, in bytes; a project of some hundred nodes takes about 50 KB."""
 
@@ -58,6 +54,11 @@ class Pools:
     def waiting(self) -> int:
         """The number of jobs that wait for a worker."""
         return self._small.waiting + self._large.waiting
+
+    def close(self) -> None:
+        """Ends all workers, like `Pool.close`."""
+        self._small.close()
+        self._large.close()
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
         """Hands a job to a pool, like `Pool.ask`.
@@ -79,21 +80,25 @@ def pool() -> Pools | RemotePool:
 
 def make_pools() -> Pools:
     """Makes the pools with the limits of this server."""
-    mode = environment().mode
-    small = _pool(SMALL_WORKERS[mode], SMALL_WAITING)
-    return Pools(
-        small, _pool(LARGE_WORKERS[mode], LARGE_WAITING, niceness=NICENESS, too_long_kept_s=TOO_LONG_KEPT_S)
+    processes = environment().processes(os.cpu_count() or 1, limit_mib())
+    memory_bytes = processes.each_mib * MEBIBYTE
+    small = _pool(processes.small, SMALL_WAITING, memory_bytes)
+    large = _pool(
+        processes.large, LARGE_WAITING, memory_bytes, niceness=NICENESS, too_long_kept_s=TOO_LONG_KEPT_S
     )
+    return Pools(small, large)
 
 
-def _pool(workers: int, waiting: int, *, niceness: int = 0, too_long_kept_s: float = 0.0) -> Pool:
+def _pool(
+    workers: int, waiting: int, memory_bytes: int, *, niceness: int = 0, too_long_kept_s: float = 0.0
+) -> Pool:
     return Pool(
         Limits(
             workers=workers,
             per_owner=PER_OWNER,
             waiting=waiting * workers,
             deadline_s=environment().work_deadline_s,
-            memory_bytes=MEMORY_BYTES,
+            memory_bytes=memory_bytes,
             niceness=niceness,
             too_long_kept_s=too_long_kept_s,
         )

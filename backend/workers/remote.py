@@ -112,6 +112,7 @@ class _Line:
                     future.set_exception(kind(answer["detail"], hint=answer["hint"]))
                 else:
                     future.set_result(answer["result"])
+                del answer, future  # they do not stay while the thread waits
         self._end()
         self._connection.close()
 

@@ -118,6 +118,7 @@ class _Asker:
         with self._connection, suppress(frames.FrameError):
             while (answer := self._answers.get()) is not None:
                 frames.send(self._connection, answer)
+                del answer  # it does not stay while the thread waits
 
 
 def _answer(number: int, done: Future[Any]) -> bytes:

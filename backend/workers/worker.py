@@ -39,7 +39,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     gc.collect()
     gc.freeze()
     with socket.socket(fileno=options.fd) as connection:
-        serve(connection, options.deadline_s)
+        try:
+            serve(connection, options.deadline_s)
+        except MemoryError:
+            os._exit(frames.OUT_OF_MEMORY)  # an orderly end may need memory, too
 
 
 def serve(connection: socket.socket, deadline_s: float) -> None:

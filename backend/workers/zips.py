@@ -21,17 +21,27 @@ FAST: Final = 1
 
 
 def pack(files: Mapping[str, bytes]) -> bytes:
-    """Returns the files as a zip; equal files give equal bytes. Files of tools are left out."""
+    """Returns the files of a project as a zip, without files of tools."""
     from translator.foreign import without_tools  # noqa: PLC0415 - keeps the start of the server short
 
+    return zipped(without_tools(files))
+
+
+def zipped(files: Mapping[str, bytes]) -> bytes:
+    """Returns the files as a zip; equal files give equal bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted(without_tools(files)):
-            entry = zipfile.ZipInfo(path, _DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED if _shrinks(files[path]) else zipfile.ZIP_STORED
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, files[path], compresslevel=FAST if len(files[path]) > LARGE else None)
+        add(archive, files)
     return buffer.getvalue()
+
+
+def add(archive: zipfile.ZipFile, files: Mapping[str, bytes]) -> None:
+    """Adds files to a zip; if all are added in the order of their paths, equal files give equal bytes."""
+    for path in sorted(files):
+        entry = zipfile.ZipInfo(path, _DATE)
+        entry.compress_type = zipfile.ZIP_DEFLATED if _shrinks(files[path]) else zipfile.ZIP_STORED
+        entry.external_attr = 0o644 << 16
+        archive.writestr(entry, files[path], compresslevel=FAST if len(files[path]) > LARGE else None)
 
 
 def _shrinks(data: bytes) -> bool:

@@ -18,6 +18,9 @@ class MeSerializer(serializers.Serializer[Any]):
     email = serializers.CharField()
     role = serializers.ChoiceField(choices=["local", "administrator", "teacher", "user", "guest"])
     version = serializers.CharField()
+    users_run_as_server = serializers.BooleanField(
+        help_text="Whether the Python of every user can read and change all projects of this server."
+    )
 
 
 class NamedSerializer(serializers.Serializer[Any]):

@@ -42,6 +42,7 @@ class Me(APIView):
                 "email": user.email,
                 "role": _role(user),
                 "version": __version__,
+                "users_run_as_server": environment().users_run_as_server,
             }
         )
 

@@ -114,9 +114,6 @@ def _cache_key(key: str) -> str:
     return f"sign-in-{hashlib.sha256(key.encode()).hexdigest()}"
 
 
-# --- the cookie ---------------------------------------------------------------------------------------
-
-
 def _signer() -> TimestampSigner:
     return TimestampSigner(salt="bt-studio browser")
 

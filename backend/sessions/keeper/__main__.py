@@ -29,6 +29,12 @@ KEEPER_FOLDER: Final = "/run/bt-studio-keeper"
 CONTROL_SOCKET: Final = "/run/bt-studio-control/gate.sock"
 DOCKER_SOCKET: Final = "/var/run/docker.sock"
 TIDY_EVERY_S: Final = 5
+# Set where an earlier release had further machines; nothing starts as if they still were there.
+REMOVED: Final = ("BT_STUDIO_HOST_SESSIONS", "BT_STUDIO_KEEPER_SILENCE_S")
+INSTEAD: Final = (
+    "this setting is gone: robots on several machines run on Kubernetes (docs/how-to/run-on-kubernetes.md, "
+    "“Three machines with k3s”); on one machine BT_STUDIO_MAX_SESSIONS is the number of robots"
+)
 
 
 def main() -> int:
@@ -48,6 +54,9 @@ def main() -> int:
 
 
 def _serve(folder: Path) -> None:
+    for name in REMOVED:
+        if os.environ.get(name):
+            raise ValueError(f"{name}: {INSTEAD}")
     docker_socket = os.environ.get("BT_STUDIO_DOCKER_SOCKET") or DOCKER_SOCKET
     check_socket(docker_socket)
     try:
@@ -58,12 +67,10 @@ def _serve(folder: Path) -> None:
     gate_folder = Path(os.environ.get("BT_STUDIO_GATE_FOLDER") or GATE_FOLDER)
     gate_source, stack = _place(docker, gate_folder)
     plan = read_plan(gate_source=gate_source, stack=stack)
-    places = os.environ.get("BT_STUDIO_HOST_SESSIONS") or os.environ.get("BT_STUDIO_MAX_SESSIONS")
-    max_sessions = int(places or 20)
-    silence_s = float(os.environ.get("BT_STUDIO_KEEPER_SILENCE_S") or 0)
+    max_sessions = int(os.environ.get("BT_STUDIO_MAX_SESSIONS") or 20)
     control = Path(os.environ.get("BT_STUDIO_GATE_CONTROL") or CONTROL_SOCKET)
     gate = Gate(control, folder / "sessions")
-    keeper = Keeper(docker, gate, plan, max_sessions=max_sessions, silence_s=silence_s)
+    keeper = Keeper(docker, gate, plan, max_sessions=max_sessions)
     max_tools = int(os.environ.get("BT_STUDIO_MAX_TOOLS") or 20)
     tools = ToolsKeeper(docker, gate, plan, max_tools=max_tools)
     server = KeeperServer(folder / "keeper.sock", keeper, tools)
@@ -74,7 +81,6 @@ def _serve(folder: Path) -> None:
     log.info("the keeper of %s starts %s, at most %d", stack, plan.image, max_sessions)
     while not ended.wait(TIDY_EVERY_S):
         try:
-            keeper.end_unheard()
             keeper.end_crowded()
             keeper.tidy(time.time())
             tools.tidy(time.time())

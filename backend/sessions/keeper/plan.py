@@ -125,9 +125,11 @@ class Plan:
             *("--gate", f"{GATE_FOLDER}/{door}", "--session", session_id),
             *("--domain-id", str(domain_id), "--grace", str(self.grace_s)),
         ]
+        # A program that takes too much gets an error before the kernel ends the whole session.
+        program_mb = max(64, int(limits.memory_mb * 0.6))
         environment = [
-            # An application that takes too much gets an error before the kernel ends the whole session.
-            f"BT_STUDIO_APPLICATION_MEMORY_MB={max(64, int(limits.memory_mb * 0.6))}",
+            f"BT_STUDIO_APPLICATION_MEMORY_MB={program_mb}",
+            f"BT_STUDIO_EVALUATION_MEMORY_MB={program_mb}",
             f"BT_STUDIO_APPLICATION_FILE_MB={max(1, int(limits.disk_mb))}",
             f"BT_STUDIO_APPLICATION_PROCESSES={max(8, int(limits.pids / 4))}",
             f"BT_STUDIO_HOLD_MINUTES={self.hold_minutes:g}",

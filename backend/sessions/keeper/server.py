@@ -3,12 +3,10 @@
 Bodies are JSON objects with these fields:
 
     GET    /health                    200 when Docker answers
-    GET    /places                    how many executors and tools may still start
-    GET    /sessions                  every executor; a sign that a web server maintains them
+    GET    /sessions                  every executor
     POST   /sessions                  {session, token, domain_id, timeout_s}: starts an executor
     GET    /sessions/<id>             whether the executor runs
     DELETE /sessions/<id>?timeout_s=5 ends the executor
-    GET    /tools/<id>                whether a user's tools run
     POST   /tools                     {tools, token, timeout_s}: the path of a user's tools; starts them
 """
 
@@ -102,12 +100,7 @@ class _Handler(BaseHTTPRequestHandler):
             keeper.list()
             return 200, {"status": "ok"}
         if self.path == "/sessions":
-            keeper.hear()
             return 200, {"sessions": keeper.list()}
-        if self.path == "/places":
-            return 200, keeper.places() | {"free_tools": self.server.tools.free()}
-        if self.path.startswith("/tools/"):
-            return 200, {"running": self.server.tools.has(self._made_id("/tools"))}
         return 200, keeper.look(self._session_id())
 
     def _post(self) -> tuple[int, object]:
@@ -145,13 +138,10 @@ class _Handler(BaseHTTPRequestHandler):
         return 200, {}
 
     def _session_id(self) -> str:
-        return self._made_id("/sessions")
-
-    def _made_id(self, expected: str) -> str:
-        folder, _, made_id = urlsplit(self.path).path.rpartition("/")
-        if folder != expected or not SESSION_ID.fullmatch(made_id):
+        folder, _, session_id = urlsplit(self.path).path.rpartition("/")
+        if folder != "/sessions" or not SESSION_ID.fullmatch(session_id):
             raise KeeperError(404, "not_found", "There is no such address.")
-        return made_id
+        return session_id
 
     def _body(self) -> dict[str, Any]:
         try:

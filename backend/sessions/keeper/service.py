@@ -6,7 +6,6 @@ import contextlib
 import logging
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
@@ -26,15 +25,9 @@ log = logging.getLogger(__name__)
 LOOK_EVERY_S: Final = 0.25
 LOG_LINES: Final = 20
 STOP_TIMEOUT_S: Final = 10.0
-ENDS_AT_ONCE: Final = 8
 KEPT_AFTER_END_S: Final = 3600.0
 KEPT_REASONS: Final = 200
 """Number of sessions for which the reason of their end is kept after their containers have been removed."""
-
-
-def since_boot() -> float:
-    """Returns the seconds since the machine started, in which it may have slept."""
-    return time.clock_gettime(time.CLOCK_BOOTTIME)
 
 
 class Keeper:
@@ -42,20 +35,9 @@ class Keeper:
 
     Args:
         max_sessions: the number of executors that may run at the same time.
-        silence_s: seconds without a sign of a web server after which executors are ended; 0 is never.
-        clock: a clock that also counts time in which the machine slept.
     """
 
-    def __init__(  # noqa: PLR0913 - one a setting
-        self,
-        docker: Docker,
-        gate: Gate,
-        plan: Plan,
-        *,
-        max_sessions: int,
-        silence_s: float = 0.0,
-        clock: Callable[[], float] = since_boot,
-    ) -> None:
+    def __init__(self, docker: Docker, gate: Gate, plan: Plan, *, max_sessions: int) -> None:
         self._docker = docker
         self._gate = gate
         self._plan = plan
@@ -64,34 +46,6 @@ class Keeper:
         self._crowded: set[str] = set()
         self._reasons: dict[str, str] = {}
         self._lock = threading.Lock()
-        self._silence_s = silence_s
-        self._clock = clock
-        self._heard_s = clock()
-
-    def hear(self) -> None:
-        """Notes that a web server maintains the sessions."""
-        self._heard_s = self._clock()
-
-    def end_unheard(self) -> None:
-        """Ends all executors if no web server was heard for too long: it has given them up by now.
-
-        On a host that is cut off, robots would run on while their users start others elsewhere.
-        """
-        if not self._silence_s or self._clock() - self._heard_s <= self._silence_s:
-            return
-        running = [str(one["session"]) for one in self.list() if one["running"]]
-        if not running:
-            return
-        log.warning("no web server was heard for %g s: %d sessions end", self._silence_s, len(running))
-        with ThreadPoolExecutor(ENDS_AT_ONCE) as pool:
-            list(pool.map(self._end_unheard, running))
-
-    def _end_unheard(self, session_id: str) -> None:
-        self._remember(session_id, f"Its host heard no web server for {self._silence_s:g} s.")
-        try:
-            self._docker.stop(self._plan.container_name(session_id), STOP_TIMEOUT_S)
-        except KeeperError as error:
-            log.warning("session %s: %s", session_id, error.detail)
 
     def start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> dict[str, Any]:
         """Starts an executor, and returns the path at which it listens.
@@ -102,7 +56,7 @@ class Keeper:
         """
         with self._lock:
             if session_id in self._starting or self._docker.inspect(self._plan.container_name(session_id)):
-                raise KeeperError(409, "session_exists", "This session has an executor.")
+                raise KeeperError(409, "session_exists", "This session runs already.")
             running = sum(one["running"] for one in self.list() if one["session"] not in self._starting)
             if running + len(self._starting) >= self._max_sessions:
                 raise KeeperError(429, "host_full", f"All {self._max_sessions} places are taken.")
@@ -124,7 +78,7 @@ class Keeper:
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
             # A request during the clean-up of another one gets the same answer.
-            reason = self._reasons.get(session_id, "There is no executor of this session.")
+            reason = self._reasons.get(session_id, "This session does not run.")
             return {"running": False, "status": None, "reason": reason}
         state = found["State"]
         if state["Running"]:
@@ -145,13 +99,6 @@ class Keeper:
             for one in self._docker.list({STACK_LABEL: self._plan.stack})
             if SESSION_LABEL in one["Labels"]
         ]
-
-    def places(self) -> dict[str, int]:
-        """Returns how many executors may run, and how many more may start."""
-        with self._lock:
-            running = sum(one["running"] for one in self.list() if one["session"] not in self._starting)
-            free = self._max_sessions - running - len(self._starting)
-        return {"places": self._max_sessions, "free": max(0, free)}
 
     def stop(self, session_id: str, timeout_s: float) -> None:
         """Ends an executor and removes its container; may be called twice."""
@@ -250,10 +197,11 @@ def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows
         while not door.wait(LOOK_EVERY_S):
             state = (docker.inspect(name) or {}).get("State", {})
             if not state.get("Running"):
-                reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
+                log.warning("%s ended with status %s before it was ready", name, state.get("ExitCode"))
+                reason = "It ended before it was ready."
                 raise KeeperError(502, "executor_failed", reason, docker.log(name, LOG_LINES))
             if time.monotonic() > deadline:
-                reason = f"The executor did not report that it is ready within {timeout_s:g} s."
+                reason = f"It was not ready within {timeout_s:g} s."
                 raise KeeperError(504, "executor_slow", reason, docker.log(name, LOG_LINES))
 
 

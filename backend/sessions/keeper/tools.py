@@ -70,17 +70,6 @@ class ToolsKeeper:
                 self._changed.notify_all()
         return {"socket": str(self._gate.path(tools_id))}
 
-    def has(self, tools_id: str) -> bool:
-        """Returns whether a user's tools run or start here."""
-        with self._changed:
-            return tools_id in self._opening or self._runs(self._plan.tools_name(tools_id))
-
-    def free(self) -> int:
-        """Returns for how many more users tools may start."""
-        with self._changed:
-            running = {one["tools"] for one in self._list() if one["running"]} | self._opening
-        return max(0, self.max_tools - len(running))
-
     def tidy(self, now_s: float) -> None:
         """Removes tools that have ended, and ends those that ran for too long."""
         oldest_s = now_s - self._plan.tools_limits.hours * 3600

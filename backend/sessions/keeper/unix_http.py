@@ -33,18 +33,7 @@ def ask(
         OSError: no server listens at the path, or the answer took too long.
         http.client.HTTPException: the answer is not HTTP.
     """
-    return exchange(UnixHTTPConnection(path, timeout_s), method, target, body)
-
-
-def exchange(
-    connection: http.client.HTTPConnection, method: str, target: str, body: object = None
-) -> tuple[int, bytes]:
-    """Makes the one request of a connection; returns the status and the body of the answer.
-
-    Raises:
-        OSError: no server listens there, or the answer took too long.
-        http.client.HTTPException: the answer is not HTTP.
-    """
+    connection = UnixHTTPConnection(path, timeout_s)
     try:
         data = None if body is None else json.dumps(body).encode()
         headers = {} if body is None else {"Content-Type": "application/json"}

@@ -19,8 +19,6 @@ JSON object that the caller stores and passes to the other methods, also after a
     warm_state_of(id)  the state of one of which only the id is known.
     prepare(spec)    starts an executor for the next session with a target, which is likely to come; one waits
                      at most, and for minutes only. A launcher may leave it.
-    look_at_hosts()  asks further hosts for a sign of life, every few seconds; returns those that are lost.
-    is_reached(state)  whether the host of an executor answers now.
     tidy()           removes tools that have ended; called every minute by one web server.
     recordings       the folder in which recordings are left, one folder a session; None if they end with it.
     shares_network   whether executors share one network, so that each needs a ROS domain of its own.
@@ -71,27 +69,10 @@ class Spec:
 
 @dataclass(frozen=True, slots=True)
 class Started:
-    """A manager that listens at `address` (host:port), and the state by which it is found again.
-
-    The host is "" for executors on the machine of the web server, and in clusters.
-    """
+    """A manager that listens at `address` (host:port), and the state by which it is found again."""
 
     address: str
     state: dict[str, Any]
-    host: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class News:
-    """The contact with further hosts.
-
-    Attributes:
-        lost: the hosts that were given up, each with the reason for users.
-        has_returned: whether a host answers that did not; it may have executors whose sessions are over.
-    """
-
-    lost: Mapping[str, str] = field(default_factory=dict)
-    has_returned: bool = False
 
 
 class Launcher:
@@ -151,14 +132,6 @@ class Launcher:
 
     def prepare(self, spec: Spec) -> None:
         """Starts an executor for the next session with a target; the id of `spec` is its own."""
-
-    def look_at_hosts(self) -> News:
-        """Asks further hosts for a sign of life."""
-        return News()
-
-    def is_reached(self, state: State) -> bool:
-        """Returns whether the host of an executor answers now."""
-        return True
 
     def tidy(self) -> None:
         """Removes tools that have ended by themselves."""

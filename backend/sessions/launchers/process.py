@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import json
+import logging
 import os
 import select
-import signal
 import subprocess
 import sys
 import time
@@ -28,6 +28,8 @@ from backend.sessions.launchers.base import UNKNOWN_EXIT, WARM, Launcher, Spec, 
 if TYPE_CHECKING:
     from pathlib import Path
 
+_log = logging.getLogger(__name__)
+
 TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not the token
 STDERR_LINES: Final = 20
 RUNS: Final = "runs"
@@ -36,6 +38,8 @@ LATER: Final = "-"
 """Stands for a target that the manager reads from its standard input (`executor.manager.order`)."""
 SPARE_S: Final = 240.0
 """The age up to which a spare manager is given away; without clients it ends by itself after 300 s."""
+CLOSE_S: Final = 5.0
+"""The time that all managers together have to end at the end of the server."""
 OURS: Final = "BT_STUDIO_"
 FOR_EXECUTORS: Final = frozenset(
     {
@@ -43,6 +47,7 @@ FOR_EXECUTORS: Final = frozenset(
         "BT_STUDIO_APPLICATION_FILE_MB",
         "BT_STUDIO_APPLICATION_MEMORY_MB",
         "BT_STUDIO_APPLICATION_PROCESSES",
+        "BT_STUDIO_EVALUATION_MEMORY_MB",
         "BT_STUDIO_HOLD_MINUTES",
         "BT_STUDIO_RENDERER",
     }
@@ -98,7 +103,7 @@ class ProcessLauncher(Launcher):
             self._order(started.state["pid"], spec)
         except OSError as error:
             self.stop(started.state, timeout_s=spec.stop_timeout_s)
-            raise LaunchError(f"The executor ended as it started: {error}.") from error
+            raise LaunchError(f"The session ended as it started: {error}.") from error
         return started
 
     def prepare(self, spec: Spec) -> None:
@@ -149,11 +154,12 @@ class ProcessLauncher(Launcher):
                     os.close(ready_write)
                 port = _await_port(ready, spec.start_timeout_s)
         except OSError as error:
-            raise LaunchError(f"The executor could not be started: {error}.") from error
+            raise LaunchError(f"The session could not be started: {error}.") from error
         state = {"pid": child.pid, "created": _created(child.pid)}
         if port is None:
             status = _status_of(child)
             self.stop(state, timeout_s=spec.stop_timeout_s)
+            _log.warning("the executor of session %s ended with status %s", spec.session_id, status)
             raise LaunchError(_why(status, spec.start_timeout_s), hint=_last_lines(log))
         return Started(f"127.0.0.1:{port}", state)
 
@@ -193,7 +199,12 @@ class ProcessLauncher(Launcher):
         with self._lock:
             children = list(self._children.values())
         for child in children:
-            self.stop({"pid": child.pid, "created": _created(child.pid)}, timeout_s=1)
+            child.terminate()
+        # They end beside each other. A manager that is killed leaves its folder to the next one.
+        end_s = time.monotonic() + CLOSE_S
+        for child in children:
+            left_s = max(1.0, end_s - time.monotonic())
+            self.stop({"pid": child.pid, "created": _created(child.pid)}, timeout_s=left_s)
         self._thread.shutdown()
 
     def _spawn(self, spec: Spec, ready_fd: int, log: Path) -> subprocess.Popen[bytes]:
@@ -259,10 +270,8 @@ def _await_port(ready: IO[bytes], timeout_s: float) -> int | None:
 
 def _why(status: int | None, timeout_s: float) -> str:
     if status is None:
-        return f"The executor did not report that it is ready within {timeout_s:g} s."
-    if status < 0:
-        return f"The executor was ended by {signal.Signals(-status).name} before it was ready."
-    return f"The executor ended with exit status {status} before it was ready."
+        return f"The session was not ready within {timeout_s:g} s."
+    return f"The session ended before it was ready{f' (exit status {status})' if status > 0 else ''}."
 
 
 def _last_lines(log: Path) -> str:

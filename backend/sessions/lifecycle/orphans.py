@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import logging
 from datetime import timedelta
-from typing import TYPE_CHECKING
-
-from django.utils import timezone
+from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.sessions import queries
 from backend.sessions.choices import SessionState
+from backend.sessions.idleness import Ages
 from backend.sessions.lifecycle import writes
 
 if TYPE_CHECKING:
-    from backend.sessions.models import Session
+    from uuid import UUID
 
 log = logging.getLogger(__name__)
+_ages: Final = Ages()
+"""How long each session has been starting."""
 
 
 def end_orphans() -> None:
@@ -29,10 +30,11 @@ def end_orphans() -> None:
     """
     timeout_s = environment().session_stop_timeout_s
     survives = writes.launcher().survives_server
+    overdue = _overdue() if survives else set()
     for session in queries.live_sessions():
         if session.state == SessionState.QUEUED and survives:
             continue
-        if session.state == SessionState.STARTING and survives and not _is_overdue(session):
+        if session.state == SessionState.STARTING and survives and session.id not in overdue:
             continue
         if session.state == SessionState.READY and survives and session.launcher_state:
             writes.refresh(session)  # an executor that has ended meanwhile says why
@@ -53,7 +55,9 @@ def end_orphans() -> None:
         writes.launcher().stop(writes.launcher().state_of(orphan), timeout_s=timeout_s)
 
 
-def _is_overdue(session: Session) -> bool:
-    """Returns whether a session has been starting for so long that no web server can still be at work."""
-    longest = timedelta(seconds=2 * queries.start_timeout_s(session))
-    return timezone.now() - (session.used_at or session.created_at) > longest  # it may have queued
+def _overdue() -> set[UUID]:
+    """Returns the sessions that have been starting for so long that no web server can still be at work."""
+    starting = [one for one in queries.live_sessions() if one.state == SessionState.STARTING]
+    # The time of its place counts, since it may have queued.
+    ages = _ages.of({one.id: one.used_at or one.created_at for one in starting})
+    return {one.id for one in starting if ages[one.id] > timedelta(seconds=2 * queries.start_timeout_s(one))}

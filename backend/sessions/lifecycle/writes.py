@@ -22,22 +22,20 @@ from backend.core.problems import NotFoundError, StudioError
 from backend.core.process_locks import held_by_process
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
-from backend.sessions import queries
+from backend.sessions import queries, turns
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.errors import HostFullError, LaunchError
-from backend.sessions.hosts.names import read_host
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
-from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
 from backend.sessions.launchers.process import ProcessLauncher
-from backend.sessions.launchers.relayed import RelayedLauncher
 from backend.sessions.lifecycle import drain, ros_domains
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.signals import session_ends
 from backend.sessions.warm.claims import claim, key_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
+    from datetime import datetime
     from uuid import UUID
 
     from backend.accounts.models import User
@@ -61,9 +59,7 @@ def launcher() -> Launcher:
     """Returns the launcher of this server, which lives as long as the process."""
     settings = environment()
     if settings.launcher == "docker":
-        local = DockerLauncher(settings.keeper_folder)
-        further = {text: RelayedLauncher(read_host(text)) for text in settings.executor_hosts}
-        return HostsLauncher({LOCAL: local, **further}) if further else local
+        return DockerLauncher(settings.keeper_folder)
     if settings.launcher == "kubernetes":
         from backend.sessions.launchers.kubernetes.launcher import Files, open_cluster  # noqa: PLC0415 - large, and rarely used
 
@@ -138,15 +134,15 @@ def begin(
 
     Raises:
         HostFullError: an evaluation has no place, or no ROS domain is free.
+        OwnPlacesTakenError: so many robots of the user wait that one more may not.
     """
     is_evaluation = kind == SessionKind.EVALUATION
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
             with transaction.atomic():
                 transaction_lock(PLACES)
-                has_place = places_left(LIVE_STATES) > (KEPT_PLACES if is_evaluation else 0)
-                if is_evaluation and not has_place:
-                    raise HostFullError("All places of this server are taken, or kept for users who work.")
+                now = timezone.now()
+                has_place = _has_place_for_evaluation() if is_evaluation else _has_place_for(acting_user, now)
                 session = Session.objects.create(
                     project=project,
                     user=acting_user,
@@ -156,7 +152,7 @@ def begin(
                     launcher=launcher().name,
                     state=SessionState.STARTING if has_place else SessionState.QUEUED,
                     ros_domain_id=_domain_for(kind) if has_place else None,
-                    created_at=timezone.now(),
+                    created_at=now,
                 )
             break
         except IntegrityError:
@@ -184,36 +180,63 @@ def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
     return len(ros_domains.ROS_DOMAINS) if launcher().shares_network else sys.maxsize
 
 
-def start_queued() -> int:
-    """Starts waiting sessions, the oldest first, while there are places; returns their number.
+def _has_place_for_evaluation() -> bool:
+    """Returns True, unless it raises: evaluations do not wait here.
 
-    Sessions of users who work go before those of evaluations.
+    Raises:
+        HostFullError: no place is free beside the one that is kept, and those for which users wait.
+    """
+    if places_left() - len(turns.order_now().next) > KEPT_PLACES:
+        return True
+    raise HostFullError("All places of this server are taken, or kept for users who work.")
+
+
+def _has_place_for(user: User, now: datetime) -> bool:
+    """Returns whether a robot of a user may start now; those that go first have theirs.
+
+    Raises:
+        OwnPlacesTakenError: it would have to wait, and so many of its user wait already.
+    """
+    wish = turns.wish_of("", user, now)
+    if wish in turns.order_now(wish).next[: max(0, places_left())]:
+        return True
+    turns.require_turn(user)
+    return False
+
+
+def start_queued() -> int:
+    """Starts waiting sessions in their order while there are places; returns their number.
 
     Several web servers may call it at the same time: each session is started by one of them.
     """
-    if drain.current() is not None:
-        return 0
-    waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("-kind", "created_at")
     started = 0
-    for session in waiting[: max(0, places_left())]:
-        if _takes_place(session):
-            _submit(session)
-            started += 1
+    while drain.current() is None and (session := _next_with_place()) is not None:
+        _submit(session)
+        started += 1
     return started
 
 
-def _takes_place(session: Session) -> bool:
-    """Gives a place to a waiting session.
+def _next_with_place() -> Session | None:
+    """Gives a place to the session that is next; those of users who work go before evaluations.
 
-    Returns False if no place is free, or if another server was faster.
+    Returns None if nobody waits who may start, or if no place is free.
     """
     with suppress(IntegrityError, HostFullError), transaction.atomic():
         transaction_lock(PLACES)
-        kept = KEPT_PLACES if session.kind == SessionKind.EVALUATION else 0
-        if places_left() > kept:
+        session = _next_waiting(places_left())
+        if session is not None:
             place = {"state": SessionState.STARTING, "ros_domain_id": _domain_for(session.kind)}
-            return _moved(session, SessionState.QUEUED, used_at=timezone.now(), **place)
-    return False
+            if _moved(session, SessionState.QUEUED, used_at=timezone.now(), **place):
+                return session
+    return None
+
+
+def _next_waiting(places: int) -> Session | None:
+    rows = Session.objects.filter(state=SessionState.QUEUED)
+    if found := turns.order_now().next:
+        return rows.filter(id=str(found[0].key)).first() if places > 0 else None
+    evaluations = rows.filter(kind=SessionKind.EVALUATION).order_by("created_at")
+    return evaluations.first() if places > KEPT_PLACES else None
 
 
 def _submit(session: Session) -> None:
@@ -228,7 +251,8 @@ def refresh(session: Session) -> Session:
         if status is not None:
             launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
             why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
-            died = f"The executor ended by itself (status {status}).{why}" if status else ""
+            died = f"The session ended by itself.{why}" if status else ""
+            log.info("session %s: its executor ended with status %s", session.id, status)
             _look_again(session)
             died = session.error or died  # the caller that ended it has stored the reason
             state = SessionState.FAILED if died else SessionState.ENDED
@@ -310,22 +334,6 @@ def fail_session(session_id: UUID, why: str) -> None:
         _moved(session, SessionState.READY, state=SessionState.FAILED, error=why, ended_at=timezone.now())
     finally:
         connection.close()
-
-
-def fail_lost(lost: Mapping[str, str]) -> None:
-    """Gives up the sessions of hosts that are not reached, each with its host's reason.
-
-    Their executors are ended by the keeper, which hears no web server either, or when the host is reached.
-    """
-    for session in Session.objects.filter(state=SessionState.READY, host__in=list(lost)):
-        failed = {"state": SessionState.FAILED, "error": lost[session.host], "ended_at": timezone.now()}
-        if _moved(session, SessionState.READY, **failed):
-            log.warning("session %s: %s", session.id, session.error)
-
-
-def is_reached(session: Session) -> bool:
-    """Returns whether the host of a session answers; its executor cannot be judged otherwise."""
-    return launcher().is_reached(session.launcher_state)
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
@@ -434,7 +442,7 @@ def _start_and_store(session: Session, spec: Spec) -> None:
     warm = None if session.target or session.own_cluster else claim(session.id, launcher())
     connection.close()  # many robots that start at once need no connection while they wait
     started = warm or launcher().start(spec)
-    where = {"address": started.address, "launcher_state": started.state, "host": started.host}
+    where = {"address": started.address, "launcher_state": started.state}
     ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
     if not _moved(session, SessionState.STARTING, **ready):
         launcher().stop(started.state, timeout_s=spec.stop_timeout_s)

@@ -3,12 +3,10 @@
     HOST:PORT               on this machine, without encryption
     unix:PATH               a unix socket, which a container's gate listens at
     wss://HOST:PORT#SHA256  TLS, with the SHA-256 of the manager's certificate in hexadecimal digits
-    tls://HOST:PORT/ID      the relay of another host, which leads to the socket with that id
 
 The web server makes the certificate of a manager on another machine, for one session. So it trusts that one
 certificate alone: no authority, no host name and no clock matters. It is checked in the handshake, before the
-token is sent. The digest is a part of the address, since whatever has the address needs it. A relay has a
-certificate for the name of its host, and leads to one manager after another (`backend.sessions.hosts.dial`).
+token is sent. The digest is a part of the address, since whatever has the address needs it.
 """
 
 from __future__ import annotations
@@ -24,8 +22,6 @@ from websockets.asyncio.client import connect, unix_connect
 from websockets.sync.client import connect as sync_connect
 from websockets.sync.client import unix_connect as sync_unix_connect
 
-from backend.sessions.hosts.dial import RelayedHTTPConnection, dial, greeting, web_bundle
-from backend.sessions.hosts.names import HostAddress, read_host
 from backend.sessions.keeper.unix_http import UnixHTTPConnection
 
 if TYPE_CHECKING:
@@ -42,11 +38,7 @@ __all__ = [
 
 _NETWORK: Final = re.compile(r"(?P<place>[0-9A-Za-z.\-]+:\d{1,5}|\[[0-9A-Fa-f:]+\]:\d{1,5})")
 _SECURE: Final = re.compile(rf"wss://{_NETWORK.pattern}#(?P<digest>[0-9a-f]{{64}})")
-_RELAYED: Final = re.compile(
-    rf"tls://{_NETWORK.pattern}/(?P<made_id>[0-9a-f]{{8}}(-[0-9a-f]{{4}}){{3}}-[0-9a-f]{{12}})"
-)
 _HOST: Final = "localhost"
-_OPEN_S: Final = 10.0
 
 
 class UnknownAddressError(OSError):
@@ -55,33 +47,18 @@ class UnknownAddressError(OSError):
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """An address in its parts: a path, or a place (HOST:PORT).
-
-    With the place is the digest of a certificate, or the id of what a relay leads to, or neither.
-    """
+    """An address in its parts: a path, or a place (HOST:PORT), which may have the digest of a certificate."""
 
     path: str = ""
     place: str = ""
     digest: str = ""
-    made_id: str = ""
-
-    @property
-    def host(self) -> HostAddress:
-        """Where a relay listens."""
-        return read_host(self.place)
 
     def url(self, target: str) -> str:
         """Returns the address of a websocket."""
-        return f"{'wss' if self.digest or self.made_id else 'ws'}://{self.place or _HOST}/{target}"
+        return f"{'wss' if self.digest else 'ws'}://{self.place or _HOST}/{target}"
 
     def context(self) -> ssl.SSLContext | None:
-        """Returns what checks the certificate of the manager or relay; None without encryption.
-
-        Raises:
-            OSError: this web server has no certificate for relays.
-        """
-        if self.made_id:
-            return web_bundle().context()
+        """Returns what checks the certificate of the manager; None without encryption."""
         return _pinned(self.digest) if self.digest else None
 
 
@@ -95,8 +72,6 @@ def read_address(text: str) -> Address:
         return Address(path=text.removeprefix("unix:"))
     if found := _SECURE.fullmatch(text):
         return Address(place=found["place"], digest=found["digest"])
-    if found := _RELAYED.fullmatch(text):
-        return Address(place=found["place"], made_id=found["made_id"])
     if found := _NETWORK.fullmatch(text):
         return Address(place=found["place"])
     raise UnknownAddressError(f"“{text[:80]}” is not the address of a manager")
@@ -111,8 +86,6 @@ def open_socket(address: str, target: str, **options: Any) -> connect:
     at = read_address(address)
     if at.path:
         return unix_connect(at.path, at.url(target), **options)
-    if at.made_id:
-        options["create_connection"] = greeting(at.made_id)
     return connect(at.url(target), proxy=None, ssl=at.context(), **options)
 
 
@@ -121,18 +94,12 @@ def open_sync_socket(address: str, target: str, **options: Any) -> ClientConnect
 
     Raises:
         OSError: no manager listens there, or it is another one than the address names.
-        websockets.exceptions.WebSocketException: the manager refused, or the relay has no such manager and
-            closes the stream while the handshake is sent.
+        websockets.exceptions.WebSocketException: the manager refused.
     """
     at = read_address(address)
     opened: ClientConnection
     if at.path:
         opened = sync_unix_connect(at.path, at.url(target), **options)
-    elif at.made_id:
-        stream = dial(at.host, at.made_id, options.get("open_timeout") or _OPEN_S)
-        stream.settimeout(None)  # the limit was for the way to the manager, which may be silent for longer
-        # The stream is encrypted already.
-        opened = sync_connect(f"ws://{at.place}/{target}", proxy=None, sock=stream, **options)
     else:
         opened = sync_connect(at.url(target), proxy=None, ssl=at.context(), **options)
     return opened
@@ -147,8 +114,6 @@ def http_connection(address: str, timeout_s: float) -> http.client.HTTPConnectio
     at = read_address(address)
     if at.path:
         return UnixHTTPConnection(at.path, timeout_s)
-    if at.made_id:
-        return RelayedHTTPConnection(at.host, at.made_id, timeout_s)
     context = at.context()
     if context is None:
         return http.client.HTTPConnection(at.place, timeout=timeout_s)

@@ -16,7 +16,9 @@ from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.core.problems import StudioError
-from backend.sessions.choices import SessionState
+from backend.sessions import turns
+from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.idleness import Ages
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Spec
 from backend.sessions.lifecycle import drain
 from backend.sessions.lifecycle.writes import launcher, token_of, workers
@@ -32,6 +34,7 @@ log = logging.getLogger(__name__)
 
 OLDEST: Final = timedelta(minutes=30)
 """The age at which an executor that nobody uses is replaced."""
+_ages: Final = Ages()
 PAUSE_S: Final = 60.0
 """Seconds without a try after one has failed, so that a full cluster is left alone."""
 
@@ -82,18 +85,20 @@ def end_leftovers() -> None:
 
 def _wanted() -> int:
     """Returns how many executors are kept; none while users wait for that room, or a drain begins."""
-    is_awaited = Session.objects.filter(state=SessionState.QUEUED).exists()
+    evaluations = Session.objects.filter(state=SessionState.QUEUED, kind=SessionKind.EVALUATION)
+    is_awaited = bool(turns.order_now().next) or evaluations.exists()
     if is_awaited or drain.current() is not None or failure.is_recent():
         return 0
     return environment().warm_sessions
 
 
 def _retire() -> None:
-    now = timezone.now()
     longest_start = timedelta(seconds=2 * environment().session_start_timeout_s)
     live = set(Session.objects.filter(state__in=LIVE_STATES).values_list("id", flat=True))
-    for row in WarmExecutor.objects.all():
-        age = now - row.created_at
+    rows = list(WarmExecutor.objects.all())
+    ages = _ages.of({row.id: row.created_at for row in rows})
+    for row in rows:
+        age = ages[row.id]
         if row.claimed_by is not None:
             is_over = row.claimed_by not in live
         elif row.address:

@@ -57,6 +57,7 @@ def team(settings_of, db, tmp_path):
     """Team mode: settings, addresses and middleware as `serve` would have them."""
     settings_of(
         mode="team",
+        unsafe_users_run_as_server="true",
         public_url=f"http://{PUBLIC}",
         # The database is that of the tests; only the setting must exist.
         database_url=os.environ.get("BT_STUDIO_DATABASE_URL", f"sqlite:///{tmp_path}/unused"),

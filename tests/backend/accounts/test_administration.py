@@ -20,3 +20,12 @@ def test_an_administrator_deletes_an_account_as_its_user_would(person):
     chosen = {"action": "delete_selected", "_selected_action": str(ada.user.pk), "post": "yes"}
     ada.form("/admin/accounts/user/", **chosen)
     assert User.objects.filter(username="ada").exists()
+
+
+def test_each_page_warns_where_users_run_as_the_server(person, settings_of):
+    ada = person("ada", is_admin=True)
+    for page in ("/admin/", "/admin/mail/", "/admin/accounts/user/"):
+        settings_of(launcher="process")
+        assert b"BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER" in ada.page(page).content
+        settings_of(launcher="docker")
+        assert b"BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER" not in ada.page(page).content

@@ -36,7 +36,8 @@ def done(seed: int, outcome: str = "success", number: int = 1, wanted: int = 4) 
 
 
 def begin(found: Evaluation, wanted: int = 4, **more: Any) -> None:
-    writes.begun(found, Begun("a1", 2, 0, wanted, more.pop("sequential", False), 5.0, {"outlines": []}))
+    sequential, notes = more.pop("sequential", False), more.pop("notes", "")
+    writes.begun(found, Begun("a1", 2, 0, wanted, sequential, 5.0, {"outlines": []}, notes))
 
 
 def store(found: Evaluation, *told: Done, revision: int | None = None) -> bool:

@@ -70,6 +70,9 @@ def test_no_nul_passes_since_the_database_stores_none():
     found = read(sent("evaluation_started", begun | {"plan": {"outlines": ["a\0"]}}))
     assert isinstance(found, Begun)
     assert found.plan == {}
+    found = read(sent("evaluation_started", begun | {"plan": {}, "notes": "a\0: left out"}))
+    assert isinstance(found, Begun)
+    assert found.notes == "a: left out"
     end = read(sent("evaluation_ended", {"job": "a", "end": "failed", "message": "it\0 died"}))
     assert isinstance(end, Ended)
     assert end.message == "it died"

@@ -36,6 +36,16 @@ def test_outcomes_come_in_the_order_in_which_they_were_stored_and_lines_in_that_
         queries.outcome(found, 1, 9)
 
 
+def test_a_page_of_outcomes_is_bounded_by_the_bytes_of_their_lines(people, monkeypatch):
+    found = wish(people)
+    store(found, done(0), done(1), done(2))
+    monkeypatch.setattr(queries, "OUTCOME_BYTES_AT_A_TIME", len(line(0)) + len(line(1)))
+    rows = queries.outcomes(found, 1, 0)
+    assert [row.seed for row in rows] == [0, 1]
+    monkeypatch.setattr(queries, "OUTCOME_BYTES_AT_A_TIME", 1)
+    assert [row.seed for row in queries.outcomes(found, 1, rows[-1].pk)] == [2]
+
+
 def test_what_a_run_costs_is_known_from_the_last_evaluation_of_each_name(people):
     old, other, last, sealed = (wish(people) for _ in range(4))
     Evaluation.objects.filter(id=other.id).update(name="hall")

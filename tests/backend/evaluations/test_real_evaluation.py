@@ -12,7 +12,7 @@ import requests
 
 from tests.backend.serving import serving
 
-pytestmark = pytest.mark.simulation
+pytestmark = [pytest.mark.kills, pytest.mark.simulation]
 
 ROOM = """format: bt-studio/evaluation
 version: 1

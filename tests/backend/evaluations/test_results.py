@@ -18,7 +18,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 def compared(people):
     found = wish(people)
-    begin(found)
+    begin(found, notes="a.launch.xml:2:1: the launch node talker is left out")
     store(found, done(0), done(1, "failure", 2))
     writes.store(found, 0, [(done(seed), read_line(done(seed))) for seed in (0, 1)])
     Evaluation.objects.filter(id=found.id).update(older=0)
@@ -38,6 +38,7 @@ def test_a_report_is_a_page_of_its_own(people):
         page = file.read().decode()
     assert page.startswith("<!doctype html>")
     assert '"project":"Robot"' in page
+    assert "the launch node talker is left out" in page
 
 
 def test_there_is_nothing_to_report_or_to_compare(people):

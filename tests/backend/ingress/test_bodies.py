@@ -15,7 +15,7 @@ import pytest
 
 from backend.core import guard
 from backend.core.processes.siblings import siblings
-from backend.ingress import bodies, handler
+from backend.ingress import bodies, sending
 from backend.ingress.bodies import UNKNOWN_BYTES, Upload
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
@@ -154,7 +154,7 @@ def test_a_user_sends_only_a_few_large_bodies_at_a_time(person, monkeypatch):
 
 def test_a_body_that_comes_too_slowly_is_given_up(monkeypatch):
     monkeypatch.setattr(bodies, "PATIENCE_S", 0.2)
-    monkeypatch.setattr(handler, "LINGER_S", 0.1)
+    monkeypatch.setattr(sending, "LINGER_S", 0.1)
     sent = []
 
     async def receive():
@@ -209,9 +209,6 @@ def test_large_bodies_are_written_by_threads_and_leave_nothing(monkeypatch, sett
     assert list((tmp_path / "uploads").iterdir()) == []
 
 
-# --- archives -----------------------------------------------------------------------------------------
-
-
 def archive_of(*sizes):
     """Returns a project zip that compression does not make smaller."""
     stream = io.BytesIO()
@@ -256,9 +253,6 @@ def test_an_archive_that_is_sent_again_with_its_key_is_imported_once():
     other = archive_of(11)
     changed = head(**(streamed | {"content_length": str(len(other))}), idempotency_key="once")
     assert refused([body(other)], changed, IMPORT)[1] == "idempotency_key_reused"
-
-
-# --- the real server ----------------------------------------------------------------------------------
 
 
 def exchange(port, head_text, data=b"", *, chunked=False):

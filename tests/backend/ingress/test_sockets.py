@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from contextlib import asynccontextmanager, suppress
 from typing import Any
 from uuid import UUID
 
@@ -12,6 +13,7 @@ from django.conf import settings
 from django.db import connections
 from django.utils import timezone
 
+from backend.accounts import rights
 from backend.accounts.models import User
 from backend.ingress.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
 from backend.projects.api.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
@@ -78,6 +80,40 @@ def test_a_user_who_may_not_use_a_socket_gets_the_reason(person):
         said.put_nowait({"type": "websocket.connect"})
         routes = {ADDRESS: Route(written, may_write)}
         await serve(routes, scope_of(friend, f"/ws/projects/{one}/notices"), said.get, heard.put)
+        await sync_to_async(connections.close_all)()
+        assert heard.get_nowait()["type"] == "websocket.accept"
+        return heard.get_nowait()["code"]
+
+    assert asyncio.run(code()) == FORBIDDEN
+
+
+def test_a_guest_is_refused_at_once_though_the_watcher_loses_its_cancellation(person, monkeypatch):
+    owner, guest = person("olga"), Person()
+    one = shared_project(owner)
+    link = owner.post(f"projects/{one}/shares/links", {}, expect=201)["links"][0]
+    guest.page(link["url"].partition(PUBLIC)[2])
+    monkeypatch.setattr(rights, "RECHECK_S", 1e6)
+    watching = asyncio.Event()
+
+    @asynccontextmanager
+    async def deaf():
+        watching.set()
+        with suppress(asyncio.CancelledError):
+            await asyncio.Event().wait()
+        yield asyncio.Event().wait
+
+    monkeypatch.setattr(rights, "notices", deaf)
+
+    async def written(call, receive, send):
+        await watching.wait()
+        await sync_to_async(may_write)(UUID(call.address[1]), call.user)
+
+    async def code():
+        heard: asyncio.Queue[Any] = asyncio.Queue()
+        said: asyncio.Queue[Any] = asyncio.Queue()
+        said.put_nowait({"type": "websocket.connect"})
+        routes = {ADDRESS: Route(written, may_write)}
+        await serve(routes, scope_of(guest, f"/ws/projects/{one}/notices"), said.get, heard.put)
         await sync_to_async(connections.close_all)()
         assert heard.get_nowait()["type"] == "websocket.accept"
         return heard.get_nowait()["code"]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 
-from backend.core.scratch import scratch
 from backend.runs import logs
 from backend.runs.errors import LogRefusedError
 from backend.runs.models import Run
@@ -12,11 +13,21 @@ from tests.executor.recorder.outside.logs import SAMPLES, btlog, read
 
 LOG = (SAMPLES / "patrol.btlog").read_bytes()
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
 
 @pytest.fixture
 def converter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Makes this server read logs beside itself, as one without accounts does."""
     monkeypatch.setattr(logs, "require_converter", lambda: None)
+
+
+@pytest.fixture
+def own_folder(settings_of, tmp_path: Path) -> Path:
+    """A folder of data that no other test uses at the same time."""
+    settings_of(data_dir=tmp_path)
+    return tmp_path
 
 
 def send(by, project, data=LOG, name="patrol.btlog"):
@@ -45,14 +56,14 @@ def test_a_log_becomes_a_run_of_who_sent_it(people):
         (btlog([(0, 77, 1)]), "damaged", "node 77 is not in the tree"),
     ],
 )
-def test_what_is_no_log_is_refused_with_its_place(people, data, reason, text):
+def test_what_is_no_log_is_refused_with_its_place(people, own_folder, data, reason, text):
     answer = send(people.owner, people.project, data, "my%2520log")
     problem = answer.json()
     assert (answer.status_code, problem["code"], problem["reason"]) == (422, "log_refused", reason)
     assert text in problem["detail"]
     assert problem["hint"]
     assert Run.objects.count() == 0
-    assert list(scratch().folder.iterdir()) == []
+    assert list((own_folder / "uploads").iterdir()) == []
 
 
 @pytest.mark.usefixtures("converter")

@@ -46,7 +46,7 @@ def test_a_child_that_fails_is_an_error_of_the_log(program, text, tmp_path, monk
 
 @pytest.mark.parametrize(("mode", "launcher"), [("team", "process"), ("local", "docker")])
 def test_where_users_files_are_read_in_containers_none_is_read_beside_the_server(mode, launcher, monkeypatch):
-    settings = SimpleNamespace(mode=mode, launcher=launcher)
+    settings = SimpleNamespace(is_team=mode == "team", has_containers=launcher != "process")
     monkeypatch.setattr(outside, "environment", lambda: settings)
     with pytest.raises(LogsUnavailableError, match="does not read logs"):
         outside.require_converter()

@@ -81,6 +81,7 @@ def test_a_run_is_kept_while_it_runs_and_downloaded_after_its_session(tmp_path):
         assert {"/bt/tree", "/bt/tick", "/world/poses", "/scan"} <= topics
 
 
+@pytest.mark.kills
 def test_the_last_run_is_kept_by_itself_when_its_session_or_executor_or_server_ends(tmp_path):
     with serving(tmp_path) as server:
         api = Api(server)

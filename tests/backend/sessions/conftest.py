@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,9 +14,13 @@ from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.lifecycle import writes
 from tests.backend.accounts.conftest import person, stranger, team
+from tests.budget import count
 from tests.processes import command_line
 
 FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"
+
+# It takes four minutes, so only the large counts of `make test-full` have it.
+collect_ignore = [] if count("backend_chaos_blows") else ["test_chaos.py"]
 
 
 def spec(**changes):
@@ -29,16 +34,28 @@ def spec(**changes):
     return Spec(**values | changes)
 
 
-# The workers of the pool, and the object store of the tests, live as long as this process.
-LASTING = {"backend.workers.worker", "moto.server"}
+# The workers of the pool, and the object store and PostgreSQL of the tests, live as long as this process.
+LASTING = {"backend.workers.worker", "moto.server", "tests.backend.preloaded"}
+# The children that there were before a test.
+BEFORE: set[psutil.Process] = set()
+PR_SET_CHILD_SUBREAPER = 36
+
+
+@pytest.fixture(autouse=True)
+def _children_before():
+    # An executor's supervisor, of another test in this process, adopts orphans; the server does not.
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0)
+    BEFORE.clear()
+    BEFORE.update(psutil.Process().children(recursive=True))
 
 
 def children():
-    """Returns the children of this process, except those that last."""
+    """Returns the children that this process got in a test, except those that last."""
     return [
         child
-        for child in psutil.Process().children(recursive=True)
-        if LASTING.isdisjoint(command_line(child))
+        for child in set(psutil.Process().children(recursive=True)) - BEFORE
+        if LASTING.isdisjoint(line := command_line(child))
+        and not any("postgres" in word for word in line[:1])
     ]
 
 

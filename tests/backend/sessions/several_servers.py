@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import psycopg
 import requests
 
+from tests.backend.programs import sign_in
 from tests.backend.services import cluster as postgresql_server
 from tests.backend.services import free_port, redis_server
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, Served, serving
-from tests.benchmarks.load import settings_of, sign_in
+from tests.benchmarks.load import settings_of
 from tests.e2e.observer import Observer
 from tests.fakes.kubernetes_api import NAMESPACE, FakeCluster
 from tests.fakes.kubernetes_node import kubeconfig
@@ -43,12 +44,14 @@ class Team:
         *,
         people: int = 1,
         repository: Path = REPOSITORY,
+        database_url: str = "",
     ) -> None:
         self.repositories = [repository, repository]
-        # Many sockets and savers at once.
-        self.postgresql = stack.enter_context(postgresql_server(fsync="off", max_connections=120))
+        self.database = database_url
+        if not database_url:  # many sockets and savers at once
+            self.postgresql = stack.enter_context(postgresql_server(fsync="off", max_connections=120))
+            self.database = self.postgresql.url
         self.redis = stack.enter_context(redis_server())
-        self.database = self.postgresql.url
         services = {"BT_STUDIO_DATABASE_URL": self.database, "BT_STUDIO_REDIS_URL": self.redis.url}
         config = folder / "kubeconfig"
         config.write_text(kubeconfig(cluster.url))

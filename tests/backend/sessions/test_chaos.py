@@ -36,11 +36,7 @@ if TYPE_CHECKING:
 
 BLOWS: Final = count("backend_chaos_blows")
 
-pytestmark = [
-    pytest.mark.simulation,
-    pytest.mark.timeout(0),
-    pytest.mark.skipif(BLOWS == 0, reason="takes four minutes: in make test-full"),
-]
+pytestmark = [pytest.mark.simulation, pytest.mark.timeout(0)]
 
 EDITORS: Final = 50
 SESSIONS: Final = 20
@@ -116,8 +112,6 @@ class Storm:
         """The process of a page's session."""
         return psutil.Process(self.node.process_of[pod_name(Kind.SESSION, page.session)].pid)
 
-    # --- blows ------------------------------------------------------------------------------------
-
     def away(self, end: Callable[[], None], start: Callable[[], None]) -> list[Page]:
         """Ends a component, and starts it again after a while."""
         end()
@@ -166,7 +160,7 @@ class Storm:
         self.returned_s = monotonic()
         used.kill()
         self.wait_for(f"{program}: another state", lambda: page.state != "application_running")
-        self.wait_for(f"{program}: the fault", lambda: any("SIGKILL" in each for each in page.faults))
+        self.wait_for(f"{program}: the fault", lambda: any("ended at once" in each for each in page.faults))
         self.crowd.do(page.drive())
         return []
 
@@ -184,8 +178,6 @@ class Storm:
         old[0].kill()
         self.wait_for(f"{program}: another", lambda: self.children(page, program) not in ([], old))
         return []
-
-    # --- what must be true ------------------------------------------------------------------------
 
     def wait_for(self, what: str, is_so: Callable[[], bool]) -> None:
         """Waits for something, and notes how long that took from the return of the component."""
@@ -234,7 +226,7 @@ def test_whatever_is_killed_no_save_is_lost_and_each_session_is_right_or_ended(
         *(storm.kill_world, storm.kill_application, storm.kill_recorder),
         *(storm.kill_first_server, storm.kill_second_server, storm.end_first_server),
     ]
-    for number in range(BLOWS):
+    for number in range(max(1, BLOWS)):
         blow = blows[number % len(blows)]
         gone = blow()
         storm.await_right(blow.__name__, gone)

@@ -16,7 +16,8 @@ from websockets.typing import Origin
 
 from backend.config.server import _make_server, bind
 from backend.core import guard
-from backend.core.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
+from backend.core.connection_costs import LARGEST_MESSAGE
+from backend.core.websocket import READ_BYTES, PatientSocket
 from backend.ingress.sockets import Route, serve
 from backend.sessions.consumers import (
     ADDRESS,
@@ -36,7 +37,7 @@ MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"
 
 
 async def application(scope, receive, send):
-    await serve({ADDRESS: Route(relay_socket, may_use, LARGEST_MESSAGE)}, scope, receive, send)
+    await serve({ADDRESS: Route(relay_socket, may_use, LARGEST_MESSAGE, as_bytes=True)}, scope, receive, send)
 
 
 @pytest.fixture
@@ -95,7 +96,7 @@ def test_text_and_bytes_go_both_ways_verbatim(relay, session):
         assert hello["authorization"].startswith("Bearer ")
         assert not hello["user"]  # without accounts nobody has a name
         assert socket.subprotocol == "bt-studio.v1"
-        for message in ("", "ä€", "x" * 300_000, b"", b"\x00\xff", bytes(3_000_000)):
+        for message in ("", "ä€", "x" * 300_000, "ä€" * 200_000, b"", b"\x00\xff", bytes(3_000_000)):
             socket.send(message)
             assert socket.recv() == message
 
@@ -222,7 +223,7 @@ async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
     async def receive():
         nonlocal left
         left -= 1
-        return {"type": "websocket.receive", "text": "x"} if left else {"type": "websocket.disconnect"}
+        return {"type": "websocket.receive", "bytes": b"x"} if left else {"type": "websocket.disconnect"}
 
     async def send(message):
         nonlocal left
@@ -231,7 +232,7 @@ async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
             raise OSError("it has gone")
 
     class Manager:
-        async def send(self, payload):
+        async def send(self, payload, *, text):
             pass
 
         async def recv(self):

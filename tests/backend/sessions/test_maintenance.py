@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import json
+import time
 from datetime import timedelta
+from typing import Any
 
 import pytest
 from asgiref.sync import async_to_sync
@@ -13,10 +15,9 @@ from django.utils import timezone
 from backend.config.environment import environment
 from backend.sessions import maintenance
 from backend.sessions.errors import HostFullError
-from backend.sessions.launchers.base import News
-from backend.sessions.launchers.hosts import lost_reason
+from backend.sessions.idleness import Ages
 from backend.sessions.lease import holder
-from backend.sessions.lifecycle import orphans, writes
+from backend.sessions.lifecycle import writes
 from backend.sessions.models import Session
 from tests.backend.sessions.lifecycle.test_writes import launched
 
@@ -129,6 +130,60 @@ def test_the_idle_are_warned_and_then_ended(api, start, fake_manager, settings_o
     assert (ended["state"], ended["error"]) == ("ended", "It was ended because it was not used.")
 
 
+@pytest.mark.parametrize("hours", [3, -3])
+def test_a_clock_that_is_set_ends_no_session_that_is_used(
+    start, fake_manager, settings_of, monkeypatch, hours
+):
+    fake_manager("echo")
+    settings_of(session_idle_minutes=30)
+    launched(start("One")["id"])
+    maintenance.maintain()
+    clock: dict[str, Any] = {"wall": timezone.now(), "steady": time.monotonic()}
+    monkeypatch.setattr(maintenance, "ages_of_use", Ages(lambda: clock["wall"], lambda: clock["steady"]))
+    monkeypatch.setattr(timezone, "now", lambda: clock["wall"])
+    assert maintenance.ending_soon() == {}
+    clock["wall"] += timedelta(hours=hours)
+    maintenance.maintain()
+    assert maintenance.ending_soon() == {}
+    clock["wall"] += timedelta(minutes=29)
+    clock["steady"] += 29 * 60
+    assert list(maintenance.ending_soon().values()) == [1]
+    maintenance.note_used({Session.objects.get().id: 0.0})
+    assert maintenance.ending_soon() == {}
+    maintenance.maintain()
+    assert Session.objects.get().state == "ready"
+
+
+def test_a_session_that_cannot_be_ended_does_not_stop_the_round(
+    start, fake_manager, settings_of, monkeypatch
+):
+    fake_manager("echo")
+    settings_of(session_idle_minutes=30)
+    started = [start(name)["id"] for name in ("One", "Two")]
+    for one in started:
+        launched(one)
+    maintenance.maintain()
+    Session.objects.update(used_at=timezone.now() - timedelta(minutes=31))
+    end, refresh, kept = writes.end_session, writes.refresh, []
+
+    def stubborn(session, *arguments):
+        if str(session.id) == started[0]:
+            raise RuntimeError("it does not end")
+        return end(session, *arguments)
+
+    def unknown(session):
+        if str(session.id) == started[0]:
+            raise OSError("its launcher does not know it")
+        return refresh(session)
+
+    monkeypatch.setattr(writes, "end_session", stubborn)
+    monkeypatch.setattr(writes, "refresh", unknown)
+    monkeypatch.setattr(maintenance, "keep_warm", lambda: kept.append(True))
+    maintenance.maintain()
+    assert [Session.objects.get(id=one).state for one in started] == ["ready", "ended"]
+    assert kept == [True]
+
+
 def test_a_session_whose_tree_is_held_is_in_use(start, fake_manager, settings_of):
     fake_manager("held")
     settings_of(session_idle_minutes=30)
@@ -163,35 +218,3 @@ def test_a_server_that_takes_the_lease_looks_first_for_what_the_last_holder_left
 
     async_to_sync(rounds)()
     assert looked == [True, *[False] * (maintenance.ROUNDS_TO_ORPHANS - 1), True]
-
-
-def test_the_sessions_of_a_lost_host_fail_with_its_reason_and_those_of_others_run_on(
-    api, start, fake_manager, monkeypatch
-):
-    launcher = fake_manager("echo")
-    lost, other = start("One"), start("Two")
-    for one, host in ((lost, "a.lan:7164"), (other, "b.lan:7164")):
-        launched(one["id"])
-        Session.objects.filter(id=one["id"]).update(host=host)
-    reason = lost_reason("a.lan:7164")
-    monkeypatch.setattr(launcher, "look_at_hosts", lambda: News({"a.lan:7164": reason}))
-    maintenance.maintain()
-    failed = api.get(f"sessions/{lost['id']}")
-    assert (failed["state"], failed["error"]) == ("failed", reason)
-    assert api.get(f"sessions/{other['id']}")["state"] == "ready"
-    # A page that looks at a session that another server has given up gets its reason.
-    stale = Session(id=lost["id"], state="ready")
-    assert writes.seen_again(stale).error == reason
-    for row in Session.objects.all():
-        launcher.stop(row.launcher_state, timeout_s=1)
-
-
-def test_executors_that_nobody_knows_are_ended_when_a_host_returns(start, fake_manager, monkeypatch):
-    launcher = fake_manager("echo")
-    swept = []
-    monkeypatch.setattr(orphans, "end_orphans", lambda: swept.append(True))
-    maintenance.maintain()
-    assert swept == []
-    monkeypatch.setattr(launcher, "look_at_hosts", lambda: News(has_returned=True))
-    maintenance.maintain()
-    assert swept == [True]

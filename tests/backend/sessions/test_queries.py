@@ -23,12 +23,13 @@ def session_of(api, user):
     return make
 
 
-def test_those_that_wait_have_their_place(session_of):
+def test_those_that_wait_are_counted_and_listed(session_of, user):
     later, first = session_of(SessionState.QUEUED), session_of(SessionState.QUEUED, age_s=60)
     ready = session_of(SessionState.READY)
-    assert [queries.position(each) for each in (first, later, ready)] == [1, 2, None]
+    session_of(SessionState.ENDED)
     assert queries.counts()[SessionState.QUEUED] == 2
     assert len(queries.live_sessions()) == 3
+    assert queries.sessions_of(user) == [first, later, ready]
 
 
 def test_a_session_is_its_users(session_of, user):

@@ -12,6 +12,7 @@ from websockets.sync.client import connect
 from tests.backend.serving import serving
 
 
+@pytest.mark.kills
 @pytest.mark.simulation
 def test_a_session_of_a_killed_server_leaves_no_process(tmp_path):
     with serving(tmp_path) as server:

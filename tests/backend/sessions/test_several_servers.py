@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from tests.e2e.observer import Observer
 
-pytestmark = [pytest.mark.simulation, pytest.mark.timeout(900)]
+pytestmark = [pytest.mark.kills, pytest.mark.simulation, pytest.mark.timeout(900)]
 PATH = "notes.txt"
 SAVES_BESIDE = 5
 PAUSE_S = 0.02
@@ -83,9 +83,9 @@ def node(tmp_path: Path) -> Iterator[Node]:
 
 
 @pytest.fixture
-def team(tmp_path: Path, node: Node) -> Iterator[Team]:
+def team(tmp_path: Path, node: Node, database_url: str) -> Iterator[Team]:
     with FakeCluster(node.run) as cluster, ExitStack() as stack:
-        yield Team(stack, tmp_path, cluster)
+        yield Team(stack, tmp_path, cluster, database_url=database_url)
 
 
 def drive(team: Team, project: str, session: str) -> Observer:

@@ -7,10 +7,10 @@ import json
 
 import pytest
 
+from backend.core.processes.memory import MEBIBYTE, WORK_MIB
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
 from backend.workers.pool import Limits, Pool
-from backend.workers.priorities import MEMORY_BYTES
 from tests.backend.accounts.conftest import PUBLIC, Person, person, team  # noqa: F401 - fixtures
 from tests.backend.ingress.test_bodies import head
 from translator.limits import NODES_PER_PROJECT, NODES_PER_TREE
@@ -54,7 +54,7 @@ async def ask(handling, browser, path):
 @pytest.fixture
 def patient(monkeypatch):
     """A pool as on a team server with four processors, but with a deadline that a busy machine can meet."""
-    made = Pool(Limits(workers=4, per_owner=2, waiting=16, deadline_s=300, memory_bytes=MEMORY_BYTES))
+    made = Pool(Limits(workers=4, per_owner=2, waiting=16, deadline_s=300, memory_bytes=WORK_MIB * MEBIBYTE))
     monkeypatch.setattr("backend.projects.documents.checking.pool", lambda: made)
     yield made
     made.close()

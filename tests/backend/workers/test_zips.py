@@ -8,9 +8,9 @@ import zipfile
 
 import pytest
 
+from backend.core.processes.memory import MEBIBYTE, WORK_MIB
 from backend.workers import zips
 from backend.workers.pool import Limits, Pool
-from backend.workers.priorities import MEMORY_BYTES
 from translator.limits import FILE_BYTES, PROJECT_BYTES
 
 
@@ -41,7 +41,7 @@ def test_the_largest_project_is_packed_within_the_memory_of_a_worker():
     """Also twice, while the worker still holds its last answer."""
     noise = os.urandom(FILE_BYTES)
     files = {f"assets/{n}.bin": noise for n in range(PROJECT_BYTES // FILE_BYTES)}
-    pool = Pool(Limits(workers=1, per_owner=1, waiting=2, deadline_s=300, memory_bytes=MEMORY_BYTES))
+    pool = Pool(Limits(workers=1, per_owner=1, waiting=2, deadline_s=300, memory_bytes=WORK_MIB * MEBIBYTE))
     try:
         for name in ("one", "two"):
             packed = pool.ask("a", "pack", files=files | {"name": name.encode()}).result()["zip"]

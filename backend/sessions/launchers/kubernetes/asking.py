@@ -77,10 +77,10 @@ def refused(error: ApiError) -> LaunchError | HostFullError:
     """Returns what a user reads of a refusal."""
     text = error.status.message or str(error)
     if error.status.code == FORBIDDEN and QUOTA in text:
-        return HostFullError(f"The executors of this server have used up their part of the cluster. ({text})")
+        return HostFullError(f"The sessions of this server have used up their part of the cluster. ({text})")
     if error.status.code == CONFLICT:
-        return TakenError("The last executor of this session has not ended yet.")
-    return LaunchError(f"The cluster refused the executor: {text}", hint="Ask who runs this server.")
+        return TakenError("The last start of this session has not ended yet.")
+    return LaunchError(f"The cluster refused the session: {text}", hint="Ask who runs this server.")
 
 
 def _pause_s(error: ApiError) -> float:

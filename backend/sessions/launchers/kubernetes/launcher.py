@@ -305,5 +305,6 @@ def _not_started(seen: Seen | None, timeout_s: float) -> LaunchError | HostFullE
         kind = HostFullError if seen.trouble.cause is Cause.NO_ROOM else LaunchError
         return kind(seen.trouble.text)
     if seen is not None and seen.exit_status is not None:
-        return LaunchError(f"The executor ended while it started (status {seen.exit_status}).")
-    return LaunchError(f"The executor was not ready within {timeout_s:.0f} s.")
+        log.warning("a pod ended with status %s while it started", seen.exit_status)
+        return LaunchError("The session ended before it was ready.")
+    return LaunchError(f"The session was not ready within {timeout_s:.0f} s.")

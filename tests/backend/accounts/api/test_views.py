@@ -5,6 +5,13 @@ from __future__ import annotations
 from backend.accounts.api import views
 
 
+def test_a_user_gets_to_know_whether_others_python_reaches_their_projects(person, settings_of):
+    ada = person("ada")
+    assert ada.get("me")["users_run_as_server"] is True
+    settings_of(launcher="docker")
+    assert ada.get("me")["users_run_as_server"] is False
+
+
 def test_a_teacher_makes_a_group_and_invites(person):
     tina = person("tina", is_teacher=True)
     assert tina.get("me")["user"] == "tina"

@@ -24,6 +24,15 @@ REFUSED = (b"refused\n", 0)
 DESCRIPTORS = 40
 
 
+def is_served(take):
+    try:
+        caller = take()
+        show(caller, session="n0")
+        return fetch(caller) == LISTEN
+    except OSError:  # it was too slow for the gate; the next one may not be
+        return False
+
+
 def is_closed(caller):
     try:
         return caller.recv(1) == b""
@@ -141,15 +150,19 @@ def test_out_of_descriptors_the_oldest_give_way_and_the_session_comes(stopped_ga
 def test_with_no_descriptor_to_spare_it_backs_off_and_serves_when_there_is_one(stopped_gate):
     stopped_gate.start(descriptors=DESCRIPTORS)
     doors: list[Any] = []
-    with pytest.raises(GateError, match="no descriptors"):  # noqa: PT012 - after how many is not known
+    # It refuses, or has none left to accept with.
+    with pytest.raises(GateError, match=r"no descriptors|does not answer"):  # noqa: PT012 - after how many?
         while len(doors) < DESCRIPTORS:
             doors.append(stopped_gate.open_door(f"n{len(doors)}", timeout_s=0.5)[0])
     waiting = stopped_gate.connect(stopped_gate.entrance(doors[0]), 3)
     assert stopped_gate.process.poll() is None
     for door in doors[1:]:
         door.close()
-    show(waiting[-1], session="n0")
-    assert fetch(waiting[-1]) == LISTEN
+    entrance = stopped_gate.entrance(doors[0])
+    wait_until(
+        lambda: is_served(lambda: waiting.pop() if waiting else stopped_gate.connect(entrance)[0]),
+        "the door is served",
+    )
     assert stopped_gate.check() == 0
 
 

@@ -17,7 +17,7 @@ from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.keeper.service import ended_at
 from backend.sessions.keeper.unix_http import ask
 from backend.sessions.launchers.base import UNKNOWN_EXIT
-from backend.sessions.launchers.docker import DockerLauncher, Room
+from backend.sessions.launchers.docker import DockerLauncher
 from tests.backend.sessions.conftest import spec
 from tests.e2e.server import wait_until
 from tests.fakes.docker import gate_of
@@ -50,8 +50,8 @@ def test_an_executor_starts_is_reached_and_ends(host_of):
 @pytest.mark.parametrize(
     ("image", "says"),
     [
-        ("failing", "status 3 before it was ready"),
-        ("liar", "status 1 before it was ready"),
+        ("failing", "ended before it was ready"),
+        ("liar", "ended before it was ready"),
         ("never", "within 0.6 s"),
         ("missing", "No such image"),
     ],
@@ -78,7 +78,7 @@ def test_a_session_has_one_executor(host_of):
     host = host_of()
     asked = session_spec()
     host.launcher.start(asked)
-    with pytest.raises(LaunchError, match="has an executor"):
+    with pytest.raises(LaunchError, match="runs already"):
         host.launcher.start(asked)
     assert host.launcher.running() == [asked.session_id]
 
@@ -195,7 +195,7 @@ def test_the_keeper_takes_ids_and_tokens_and_nothing_else(host_of, body):
         ("POST", "/containers/create"),
         ("DELETE", "/sessions/x"),
         ("GET", "/sessions/..%2f"),
-        ("POST", "/sessions/" + str(uuid4())),
+        ("POST", "/sessions/5c355f26-58ad-4373-85ac-fcf3c2910131"),
     ],
 )
 def test_the_keeper_is_no_way_to_docker(host_of, method, target):
@@ -247,45 +247,6 @@ def test_a_storm_of_processes_is_ended_from_outside(host_of):
     host.launcher.stop(started.state, timeout_s=1)
     assert host.docker.containers == {}
     assert "256 processes" in host.launcher.explain(started.state)
-
-
-def test_executors_end_when_no_web_server_was_heard_for_too_long(host_of):
-    now_s = [1000.0]
-    host = host_of(max_sessions=3, silence_s=120, clock=lambda: now_s[0])
-    started = [host.launcher.start(session_spec()) for _ in range(3)]
-    now_s[0] += 120
-    host.keeper.end_unheard()
-    host.launcher.greet()
-    now_s[0] += 120
-    # Neither a start nor a look at one session is a sign that sessions are maintained.
-    host.launcher.room()
-    host.keeper.end_unheard()
-    assert [host.launcher.poll(one.state) for one in started] == [None] * 3
-    now_s[0] += 1
-    host.keeper.end_unheard()
-    host.keeper.end_unheard()
-    assert [host.launcher.poll(one.state) for one in started] == [143] * 3
-    assert "heard no web server for 120 s" in host.launcher.explain(started[0].state)
-
-
-def test_a_keeper_without_that_limit_ends_nothing(host_of):
-    now_s = [1000.0]
-    host = host_of(clock=lambda: now_s[0])
-    started = host.launcher.start(session_spec())
-    now_s[0] += 1e6
-    host.keeper.end_unheard()
-    assert host.launcher.poll(started.state) is None
-
-
-def test_a_keeper_tells_its_places(host_of):
-    host = host_of(max_sessions=2)
-    assert host.launcher.room() == Room(places=2, free=2, free_tools=2)
-    asked = session_spec()
-    host.launcher.start(asked)
-    host.launcher.open_tools(str(uuid4()), TOKEN, timeout_s=60)
-    assert host.launcher.room() == Room(places=2, free=1, free_tools=1)
-    assert host.launcher.knows(asked.session_id)
-    assert not host.launcher.knows(str(uuid4()))
 
 
 def test_dockers_times_are_read():

@@ -63,7 +63,7 @@ def test_a_full_host_says_so_and_one_that_is_there_is_still_found(host_of):
 
 def test_tools_that_do_not_come_up_are_reported_and_leave_nothing(host_of):
     host = host_of("failing")
-    with pytest.raises(LaunchError, match="status 3"):
+    with pytest.raises(LaunchError, match="ended before it was ready"):
         opened(host)
     assert host.docker.containers == {}
     assert host.sockets == []

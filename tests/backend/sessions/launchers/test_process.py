@@ -135,7 +135,7 @@ def test_a_later_process_with_the_same_number_is_not_ours(launcher_of):
 
 @pytest.mark.parametrize(
     ("kind", "says"),
-    [("failing", "exit status 3"), ("never", "within 0.7 s"), ("mute", "not report|within")],
+    [("failing", "exit status 3"), ("never", "within 0.7 s"), ("mute", "not ready|ended before")],
 )
 def test_a_manager_that_does_not_come_up_is_reported_and_leaves_nothing(launcher_of, kind, says):
     with pytest.raises(LaunchError, match=says) as caught:

@@ -46,7 +46,7 @@ def test_an_executor_that_outlived_its_server_and_died_says_why(
     monkeypatch.setattr(launcher, "poll", lambda _state: 3)
     end_orphans()
     session = Session.objects.get()
-    assert (session.state, session.error) == ("failed", "The executor ended by itself (status 3).")
+    assert (session.state, session.error) == ("failed", "The session ended by itself.")
 
 
 def test_a_start_that_no_server_can_still_be_at_work_on_is_ended(project, user, fake_manager, monkeypatch):

@@ -19,6 +19,7 @@ from backend.sessions.launchers.kubernetes import launcher as module
 from backend.sessions.launchers.kubernetes import objects
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
+from tests.deadline import DEADLINE_S, wait_until
 from tests.fakes.kubernetes_api import make_ready
 
 if TYPE_CHECKING:
@@ -31,10 +32,7 @@ NAME = pod_name(Kind.SESSION, "s1")
 
 
 def until(launcher: KubernetesLauncher, state: dict[str, Any], status: int | None) -> None:
-    end_s = time.monotonic() + 20
-    while launcher.poll(state) != status:
-        assert time.monotonic() < end_s, f"{launcher.poll(state)}, not {status}"
-        time.sleep(0.01)
+    wait_until(lambda: launcher.poll(state) == status, f"{status}", every_s=0.01)
 
 
 def waiting(reason: str, message: str = "") -> dict[str, Any]:
@@ -86,7 +84,8 @@ def test_a_hundred_sessions_start_at_once(cluster: FakeCluster, launcher: Kubern
 
     cluster.node, cluster.validates = node, False
     with ThreadPoolExecutor(launcher.starts_at_once) as threads:
-        started = list(threads.map(lambda n: launcher.start(spec(session_id=f"s{n}")), range(100)))
+        specs = [spec(session_id=f"s{n}", start_timeout_s=DEADLINE_S) for n in range(100)]
+        started = list(threads.map(launcher.start, specs))
     assert len({each.state["pod"] for each in started}) == 100
 
 
@@ -102,11 +101,11 @@ def test_only_the_verbs_of_the_role_are_used(cluster: FakeCluster, launcher: Kub
     [
         (
             waiting("ImagePullBackOff", "no such tag"),
-            r"image of the executor cannot be pulled. \(no such tag\)",
+            r"image of the session cannot be pulled. \(no such tag\)",
         ),
-        (waiting("InvalidImageName"), "image of the executor cannot be pulled"),
+        (waiting("InvalidImageName"), "image of the session cannot be pulled"),
         ({"phase": "Failed", **terminated(137, "OOMKilled")}, "more memory than it may have"),
-        ({"phase": "Failed", **terminated(3)}, r"ended while it started \(status 3\)"),
+        ({"phase": "Failed", **terminated(3)}, r"ended before it was ready"),
         (
             {"phase": "Failed", "reason": "Evicted", "message": "low on disk"},
             r"keep its node alive. \(low on disk\)",
@@ -130,7 +129,7 @@ def test_a_cluster_without_room_lets_the_session_wait(
     unschedulable = condition("PodScheduled", "False", "Unschedulable", "0/3 nodes are available")
     cluster.node = lambda of, pod: of.set_status(pod["metadata"]["name"], **unschedulable)
     with pytest.raises(
-        HostFullError, match=re.escape("no room for another executor now. (0/3 nodes are available)")
+        HostFullError, match=re.escape("no room for another session now. (0/3 nodes are available)")
     ):
         launcher.start(spec(start_timeout_s=1))
     assert cluster.names("pods") == []
@@ -201,28 +200,28 @@ def test_a_pod_that_was_made_although_the_answer_was_lost_is_deleted(
         (
             {"phase": "Failed", **terminated(137, "OOMKilled")},
             137,
-            "The executor took more memory than it may have.",
+            "The session took more memory than it may have.",
         ),
         ({"phase": "Succeeded", **terminated(0, "Completed")}, 0, ""),
         (
             {"phase": "Failed", "reason": "Evicted", "message": "low on memory"},
             UNKNOWN_EXIT,
-            "The cluster ended the executor, to keep its node alive. (low on memory)",
+            "The cluster ended the session, to keep its node alive. (low on memory)",
         ),
         (
             {"phase": "Failed", "reason": "DeadlineExceeded"},
             UNKNOWN_EXIT,
-            "The executor reached the longest time that it may run.",
+            "The session reached the longest time that it may run.",
         ),
         (
             {"phase": "Failed", "reason": "NodeLost"},
             UNKNOWN_EXIT,
-            "The machine on which the executor ran is gone.",
+            "The machine on which the session ran is gone.",
         ),
         (
             {"phase": "Failed", **condition("DisruptionTarget", "True", "PreemptionByScheduler")},
             UNKNOWN_EXIT,
-            "The cluster gave the executor's place to something more important.",
+            "The cluster gave the session's place to something more important.",
         ),
     ],
 )
@@ -250,7 +249,7 @@ def test_a_pod_that_somebody_deletes_ends_its_session(
     state = launcher.start(spec()).state
     cluster.remove("pods", NAME)
     until(launcher, state, UNKNOWN_EXIT)
-    assert launcher.explain(state) == "Somebody deleted the executor in the cluster."
+    assert launcher.explain(state) == "Somebody deleted the session in the cluster."
 
 
 def test_a_pod_on_a_lost_node_has_ended_although_it_is_still_there(
@@ -260,7 +259,7 @@ def test_a_pod_on_a_lost_node_has_ended_although_it_is_still_there(
     cluster.object("pods", NAME)["metadata"]["deletionTimestamp"] = "2026-01-01T00:00:00Z"
     cluster.set_status(NAME, **condition("DisruptionTarget", "True", "DeletionByTaintManager"))
     until(launcher, state, UNKNOWN_EXIT)
-    assert launcher.explain(state) == "The machine on which the executor ran is gone."
+    assert launcher.explain(state) == "The machine on which the session ran is gone."
 
 
 def test_the_pod_of_another_server_counts_as_running_until_it_is_surely_unknown(

@@ -175,7 +175,7 @@ def test_a_used_up_quota_lets_the_evaluation_wait(cluster: FakeCluster, clusters
     status = condition("ReplicaFailure", "True", "FailedCreateHeadPod", "exceeded quota: cpu")
     cluster.operator = lambda of, job: of.set_status(job["metadata"]["name"], "rayjobs", **status)
     with pytest.raises(
-        HostFullError, match=re.escape("no room for another executor now. (exceeded quota: cpu)")
+        HostFullError, match=re.escape("no room for another session now. (exceeded quota: cpu)")
     ):
         clusters.start(evaluation(start_timeout_s=1))
     assert cluster.names("rayjobs") == []
@@ -289,7 +289,7 @@ def test_a_rayjob_that_somebody_deletes_ends_its_evaluation(
     state = clusters.start(evaluation()).state
     cluster.remove("rayjobs", NAME)
     until(clusters, state, UNKNOWN_EXIT)
-    assert clusters.explain(state) == "Somebody deleted the executor in the cluster."
+    assert clusters.explain(state) == "Somebody deleted the session in the cluster."
 
 
 def test_a_cluster_that_does_not_answer_ends_no_evaluation(

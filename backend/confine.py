@@ -53,7 +53,6 @@ PROGRAMS: Final = {"x86_64": (57, 58, 59, 322), "aarch64": (221, 281)}
 # The numbers of clone, clone3 and connect.
 THREADS_AND_CONNECT: Final = {"x86_64": (56, 435, 42), "aarch64": (220, 435, 203)}
 UNIX: Final = (1,)
-UNIX_IP: Final = (1, 2, 10)
 UNIX_IP_NETLINK: Final = (1, 2, 10, 16)
 
 
@@ -62,8 +61,7 @@ def confine(role: str) -> None:
 
     Args:
         role: `gate` starts no program and opens no connection; `keeper` starts no program and connects only
-            to unix sockets; `relay` starts no program; `web` gives up `NEVER`, and the socket families that
-            lead out of its network.
+            to unix sockets; `web` gives up `NEVER`, and the socket families that lead out of its network.
 
     Raises:
         OSError: the kernel or the machine's architecture does not support the filter.
@@ -72,12 +70,11 @@ def confine(role: str) -> None:
     if machine not in ARCHITECTURES:
         raise OSError(errno.ENOSYS, f"no filter of system calls for {machine}")
     refused = NEVER[machine]
-    if role in {"gate", "keeper", "relay"}:
+    if role in {"gate", "keeper"}:
         refused += PROGRAMS[machine]
     if role == "gate":
         refused += THREADS_AND_CONNECT[machine]
-    families = {"web": UNIX_IP_NETLINK, "relay": UNIX_IP}.get(role, UNIX)
-    _apply(_filter(machine, refused, families))
+    _apply(_filter(machine, refused, UNIX_IP_NETLINK if role == "web" else UNIX))
 
 
 def _filter(machine: str, refused: tuple[int, ...], families: tuple[int, ...]) -> bytes:

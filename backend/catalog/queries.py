@@ -6,9 +6,8 @@ import json
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-import yaml
-
 from backend.config.environment import REPOSITORY
+from translator.yaml_text import read_yaml
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -77,7 +76,7 @@ def robot_preview(robot_id: str) -> Path | None:
 
 
 def _entry(kind: str, entry_id: str, path: Path) -> dict[str, str]:
-    document = yaml.load(path.read_bytes(), Loader=yaml.CSafeLoader)
+    document = read_yaml(path.read_bytes()).value
     return {
         "id": entry_id,
         "name": str(document.get("name", entry_id)),

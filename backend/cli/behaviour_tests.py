@@ -31,6 +31,7 @@ def run_tests(
     as_json: Annotated[bool, typer.Option("--json", help="Print the results as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs the behaviour tests of a project, the files tests/*.test.yaml; exit status 1 if one fails."""
+    from backend.cli.run import say_left_out
     from backend.cli.shared import translation as cli
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from translator import TranslatorError
@@ -56,6 +57,7 @@ def run_tests(
             f"no test has {name!r} in its name" if cases else "there are no tests; write tests/main.test.yaml"
         )
         raise CliError(f"{project}:1:1: {what}", status=BAD_ARGUMENTS)
+    say_left_out(opened)
     results = run_apart(job, chosen, told=None if as_json else _say)
     reached = suite.coverage(_roots(opened, chosen))
     for result in results:

@@ -10,6 +10,9 @@ import typer
 
 if TYPE_CHECKING:
     from collections import Counter
+    from collections.abc import Mapping
+
+    from tree_gardener.conformance import Deviation
 
 SHOWN = 5
 
@@ -17,6 +20,12 @@ SHOWN = 5
 def conformance(
     cases: Annotated[list[Path], typer.Argument(help="Files of cases: JSON lines, or the script table.")],
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object a case.")] = False,  # noqa: FBT002
+    deviations: Annotated[
+        Path | None,
+        typer.Option(
+            help="Your own reasons: a JSON object, by name, of `kind`, `reason` and `cases` (patterns)."
+        ),
+    ] = None,
 ) -> None:
     """Runs engine conformance cases; prints the first differences, and last how many passed and failed.
 
@@ -26,26 +35,31 @@ def conformance(
 
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 
-    missing = [path for path in cases if not path.is_file()]
+    missing = [path for path in (*cases, deviations) if path is not None and not path.is_file()]
     if missing:
         lines = [f"{path}: CL001 there is no such file" for path in missing]
         raise CliError(*lines, status=BAD_ARGUMENTS)
-    from tree_gardener.conformance import DEVIATIONS
+    from tree_gardener.conformance import DEVIATIONS, read_deviations, report
 
+    try:
+        own = {} if deviations is None else read_deviations(deviations)
+    except ValueError as error:
+        raise CliError(
+            f"{deviations}: CL002 these are no deviations: {error}", status=BAD_ARGUMENTS
+        ) from None
     counts: Counter[str] = Counter()
     for path in cases:
-        counts += _run(path, as_json=as_json, shown=counts["failed"])
+        counts += _run(path, own, as_json=as_json, shown=counts["failed"])
     failed = counts["failed"]
     if not as_json:
         print(f"{counts['passed']} passed, {failed} failed")
-        for name in DEVIATIONS:
-            if counts[name]:
-                print(f"{counts[name]} differ on purpose, {name}: {DEVIATIONS[name]}")
+        for line in report(counts, {**DEVIATIONS, **own}):
+            print(line)
     if failed:
         raise CliError()
 
 
-def _run(path: Path, *, as_json: bool, shown: int) -> Counter[str]:
+def _run(path: Path, own: Mapping[str, Deviation], *, as_json: bool, shown: int) -> Counter[str]:
     """Runs one file; returns the numbers of passed cases, of failed cases, and of each deviation."""
     import json
     from collections import Counter
@@ -55,7 +69,7 @@ def _run(path: Path, *, as_json: bool, shown: int) -> Counter[str]:
 
     counts: Counter[str] = Counter()
     try:
-        for outcome in run_file(path):
+        for outcome in run_file(path, own):
             if as_json:
                 print(json.dumps(asdict(outcome)))
             counts["passed" if outcome.passed else outcome.deviation or "failed"] += 1

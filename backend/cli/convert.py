@@ -48,7 +48,8 @@ def convert(
     finally:
         partial.unlink(missing_ok=True)
     left_out = f"; the last {made.lost_bytes} bytes were not whole" if made.lost_bytes else ""
-    print(f"{output}: {made.messages} messages{left_out}")
+    late = f"; {made.late} were not in the order of time, and are sorted" if made.late else ""
+    print(f"{output}: {made.messages} messages{late}{left_out}")
 
 
 def _convert(source: Path, target: Path) -> Converted:

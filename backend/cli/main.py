@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command as command_of
 
 from backend.cli.shared.errors import WORK_FAILED, CliError, exit_with
+from backend.cli.shared.removed import refuse_removed
 
 if TYPE_CHECKING:
     from typer._click import Command, Context
@@ -29,7 +30,6 @@ VERBS: Final[dict[str, Verb]] = {
     "serve": Verb("serve", "serve"),
     "open": Verb("open_log", "open_log"),
     "run": Verb("run", "run"),
-    "debug": Verb("debugging.debug", "debug"),
     "dap": Verb("debugging.dap", "dap"),
     "attach": Verb("debugging.attach", "attach"),
     "check": Verb("check", "check"),
@@ -41,6 +41,7 @@ VERBS: Final[dict[str, Verb]] = {
     "git": Verb("comparing.git", "git"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
+    "import-robot": Verb("import_robot", "import_robot"),
     "import-universe": Verb("import_universe", "import_universe"),
     "package": Verb("package", "package"),
     "conformance": Verb("conformance", "conformance"),
@@ -49,11 +50,21 @@ VERBS: Final[dict[str, Verb]] = {
     "export": Verb("export", "export"),
     "projects": Verb("projects", "projects"),
     "admin": Verb("admin", "admin"),
-    "hosts": Verb("hosts", "hosts"),
     "convert": Verb("convert", "convert"),
     "backup": Verb("backup", "backup"),
     "restore": Verb("backup", "restore"),
 }
+
+
+class VerbCommand(TyperCommand):
+    """A command that knows which of its options were removed."""
+
+    def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
+        """Reads the arguments, unless one is an option that was removed."""
+        options = args[: args.index("--")] if "--" in args else args
+        for word in options:
+            refuse_removed(str(self.name), word.partition("=")[0])
+        return super().parse_args(ctx, args)
 
 
 class VerbGroup(TyperGroup):
@@ -65,6 +76,7 @@ class VerbGroup(TyperGroup):
 
     def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
         """Returns a command, made from its function's signature."""
+        refuse_removed(cmd_name)
         if cmd_name not in VERBS:
             return None
         verb = VERBS[cmd_name]
@@ -73,7 +85,7 @@ class VerbGroup(TyperGroup):
         if isinstance(found, typer.Typer):  # a command with subcommands
             return command_of(found)
         app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        app.command(name=cmd_name)(found)
+        app.command(name=cmd_name, cls=VerbCommand)(found)
         return command_of(app)
 
 

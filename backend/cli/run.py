@@ -36,10 +36,6 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         int,
         typer.Option(help="Of all that is random: universe, noise, and random and numpy of the actions."),
     ] = 0,
-    viewer: Annotated[  # noqa: FBT002 - typer's way
-        bool,
-        typer.Option("--serve-viewer/--headless", help="Show the run on a page; its link is printed first."),
-    ] = False,
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
     evaluation: Annotated[
         str | None,
@@ -71,11 +67,11 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     from translator.export import unwritten_actions
     from tree_gardener.stubs import stubs_sentence
 
-    _refuse_contradictions(record, universe, lockstep=lockstep, viewer=viewer)
+    _refuse_contradictions(record, universe, lockstep=lockstep)
     if evaluation is not None:
         from backend.cli.evaluating.one_run import run_one
 
-        _refuse_with_evaluation(universe, robot, duration, groot2, viewer=viewer, profile=profile)
+        _refuse_with_evaluation(universe, robot, duration, groot2, profile=profile)
         run_one(project, evaluation, seed, judged_by=judged_by, record=record, report=report, as_json=as_json)
         return
     if judged_by is not None:
@@ -92,6 +88,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
             from executor.headless.lockstep import LockstepOptions
 
             wanted = LOCKSTEP_DURATION_S if duration is None else duration
+            say_left_out(opened)
             options = LockstepOptions(
                 universe, robot, seed, wanted, recording=record, profiles=profile, groot2=groot2 or 0
             )
@@ -99,7 +96,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         else:
             from executor.headless.live import HeadlessOptions
 
-            live = HeadlessOptions(universe, seed, duration, robot, record, viewer, profile, groot2 or 0)
+            live = HeadlessOptions(universe, seed, duration, robot, record, profile, groot2 or 0)
             done = _in_real_time(opened, live)
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from error
@@ -117,12 +114,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         raise CliError(*faults, *(f"actions/{name}.py:1:1: stub {stubs_sentence([name])}" for name in stubs))
 
 
-def _refuse_contradictions(
-    record: Path | None, universe: str | None, *, lockstep: bool, viewer: bool
-) -> None:
-    if lockstep and viewer:
-        text = "lock-step is too fast to look at; leave out one of the two"
-        raise typer.BadParameter(text, param_hint="--serve-viewer")
+def _refuse_contradictions(record: Path | None, universe: str | None, *, lockstep: bool) -> None:
     if lockstep and universe == "none":
         text = "lock-step needs a simulated world; run against an outside graph in real time"
         raise typer.BadParameter(text, param_hint="--universe")
@@ -131,17 +123,16 @@ def _refuse_contradictions(
         raise typer.BadParameter(text, param_hint="--record")
 
 
-def _refuse_with_evaluation(  # noqa: PLR0913 - one an option
+def _refuse_with_evaluation(
     universe: str | None,
     robot: str | None,
     duration: float | None,
     groot2: int | None,
     *,
-    viewer: bool,
     profile: bool,
 ) -> None:
     given = {"--universe": universe, "--robot": robot, "--duration": duration, "--groot2": groot2}
-    given["--serve-viewer"], given["--profile"] = viewer or None, profile or None
+    given["--profile"] = profile or None
     for name, value in given.items():
         if value is not None:
             text = "the evaluation decides this; leave out one of the two"
@@ -182,6 +173,19 @@ def reported() -> Iterator[None]:
         raise CliError(*map(str, error.diagnostics)) from error
     except TickError as error:
         raise CliError(f"{error.file or 'tree'}:{error.line or 1}:1: {error}") from error
+
+
+def say_left_out(project: Project) -> None:
+    """Writes a line for each launch node that a run in simulated time leaves out.
+
+    Raises:
+        CliError: a launch file cannot be read.
+    """
+    from executor.headless.left_out import left_out
+
+    with reported():
+        for line in left_out(project.files):
+            sys.stderr.write(f"{line}\n")
 
 
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
@@ -225,11 +229,12 @@ def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
 
 def summary(done: Report) -> str:
     """Returns the result of a run in one line."""
+    hits = f", hit {done.hits}×" if done.hits else ""
     nearest = "" if done.min_range_m is None else f", nearest {done.min_range_m:.2f} m"
     return (
         f"{done.root_status} after {done.ticks} ticks, {done.sim_time_s:.1f} s simulated in "
         f"{done.wall_time_s:.1f} s ({done.real_time_factor:.1f}× real time); "
-        f"{done.distance_m:.2f} m, {done.collisions} collisions{nearest}"
+        f"{done.distance_m:.2f} m, {done.collisions} collisions{hits}{nearest}"
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import sys
 import threading
 from pathlib import Path  # noqa: TC003 - read at run time
 from typing import TYPE_CHECKING, Annotated
@@ -60,7 +61,7 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
     """
     from backend.config.environment import InvalidEnvironmentError, environment
     from backend.config.server import ServeError
-    from backend.config.worker_count import judge_workers
+    from backend.config.worker_count import judge_workers, too_little_memory
 
     try:
         settings = environment()
@@ -72,6 +73,8 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
                 "or a server with accounts (BT_STUDIO_MODE=team, see docs/how-to/run-a-team-server.md)."
             )
         judge_workers(settings)
+        if warning := too_little_memory(settings):
+            print(warning, file=sys.stderr, flush=True)
         if settings.launcher == "kubernetes":
             _check_cluster(settings)
         _serve(page, open_browser=browser, ready_file=ready_file)
@@ -128,6 +131,8 @@ def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> N
                 else " and every robot that runs"
             )
             print(f"BT Studio is at {url}\nCtrl+C ends it{robots}.", flush=True)
+            if settings.users_run_as_server:
+                print("The Python of every user runs as this server, which isolates nobody.", flush=True)
             if ready_file:
                 write_ready_file(ready_file, url, port)
             if open_browser:

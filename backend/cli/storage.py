@@ -116,9 +116,6 @@ def collect() -> None:
         print(f"{found.marked} files marked, {found.deleted} deleted; {found.swept} objects without a row.")
 
 
-# --- inside ---
-
-
 def _bucket() -> ObjectStore:
     from backend.core.objects.store import store
 

@@ -19,8 +19,10 @@ from channels.routing import ProtocolTypeRouter  # noqa: E402
 
 from backend.config.probes import probed  # noqa: E402
 from backend.core import notify  # noqa: E402
+from backend.core.connection_costs import LARGEST_MESSAGE  # noqa: E402
+from backend.core.limits import LIMITS  # noqa: E402
 from backend.core.processes.siblings import beat_for_ever, siblings  # noqa: E402
-from backend.core.websocket import LARGEST_MESSAGE  # noqa: E402
+from backend.core.tasks import ended  # noqa: E402
 from backend.ingress.bodies import Upload  # noqa: E402
 from backend.ingress.handler import ThreadedHandler  # noqa: E402
 from backend.ingress.sockets import Route, serve  # noqa: E402
@@ -46,9 +48,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
                 tasks.append(asyncio.create_task(beat_for_ever(requests.threads)))
             await send({"type": "lifespan.startup.complete"})
         elif message["type"] == "lifespan.shutdown":
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            await ended(*tasks)
             await database_sync_to_async(end_all_sessions)()
             notify.serve(None)
             await send({"type": "lifespan.shutdown.complete"})
@@ -56,12 +56,13 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
 
 
 IMPORT: Final = "/api/v1/projects/import"
+IMPORT_PART: Final = "/api/v1/projects/[0-9a-f-]{36}/imports(/inspect)?"
 
 watch_revisions()
 routes: Final = {
     projects.ADDRESS: Route(projects.serve_notices, projects.may_read),
     language.ADDRESS: Route(language.serve_language, projects.may_write, language.MAX_MESSAGE_BYTES),
-    sessions.ADDRESS: Route(sessions.relay, sessions.may_use, LARGEST_MESSAGE),
+    sessions.ADDRESS: Route(sessions.relay, sessions.may_use, LARGEST_MESSAGE, as_bytes=True),
 }
 
 
@@ -70,7 +71,9 @@ async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASG
     await serve(routes, scope, receive, send)
 
 
-requests: Final = ThreadedHandler(Upload(IMPORT, room_for_archive))
+requests: Final = ThreadedHandler(
+    Upload(IMPORT, room_for_archive), Upload(IMPORT_PART, lambda _: LIMITS["import_upload_bytes"])
+)
 application: ASGI3Application = probed(
     ProtocolTypeRouter({"http": requests, "websocket": sockets, "lifespan": lifespan}), requests.threads
 )

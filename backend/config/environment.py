@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from functools import lru_cache
 from pathlib import Path
@@ -13,14 +14,21 @@ from pydantic_settings import SettingsConfigDict, SettingsError
 from backend.config.object_store import ObjectStoreSettings
 from backend.config.team import MissingSettingError, TeamSettings
 from backend.core.limits import LIMITS
+from backend.core.processes.memory import MEBIBYTE, WORK_MIB, Processes, fitting
 
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
-MEBIBYTE = 1024 * 1024
-RELAY_PORT = 7164
-LONGEST_HOST = 150
-"""Characters of a host's name: addresses of sessions, which contain it, have 200 at most."""
-HOST_ADDRESS = re.compile(r"(?P<host>[0-9a-z]([0-9a-z.-]*[0-9a-z])?|\[[0-9a-f:]+\])(:(?P<port>\d{1,5}))?")
+REMOVED = {
+    "EXECUTOR_HOSTS": "this setting is gone: robots on several machines run on Kubernetes "
+    "(docs/how-to/run-on-kubernetes.md, “Three machines with k3s”); unset it to run them on this machine",
+}
+"""What to use instead of settings of earlier releases, by name; none of them is ignored."""
+_UNSAFE = (
+    "on a server with accounts, `process` would run the Python of every user as the server itself, which "
+    "reads and changes all projects, the database and its secrets. Set BT_STUDIO_LAUNCHER=docker or "
+    "kubernetes (docs/how-to/run-a-team-server.md), or, only among people who trust each other, "
+    "BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER=true"
+)
 
 
 class InvalidEnvironmentError(ValueError):
@@ -54,7 +62,18 @@ class Environment(ObjectStoreSettings, TeamSettings):
         ge=0,
         le=64,
         description="Processes that answer requests. 0: on a server with accounts, PostgreSQL and containers "
-        "one less than there are processor cores; else 1, and more are refused.",
+        "one less than there are processor cores, or as many as fit into the memory of its container; else "
+        "1, and more are refused.",
+    )
+    work_processes: int = Field(
+        default=0,
+        ge=0,
+        le=256,
+        description="Processes for large work: translating, checking, packing. 0: on a server with accounts "
+        "one for each processor, at least two, as far as they fit into the memory of its container; else 1.",
+    )
+    work_memory_mib: int = Field(
+        default=WORK_MIB, ge=256, description="Memory that one process for such work may take."
     )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
@@ -66,16 +85,19 @@ class Environment(ObjectStoreSettings, TeamSettings):
     )
     launcher: Literal["process", "docker", "kubernetes"] = Field(
         default="process",
-        description="What starts the executor of a project: `process` a child, `docker` a container, "
-        "`kubernetes` a pod of a cluster.",
+        description="What starts the executor of a project: `process` a child with the rights of the server, "
+        "`docker` a container, `kubernetes` a pod of a cluster. A server with accounts needs one of the "
+        "last two.",
+    )
+    unsafe_users_run_as_server: bool = Field(
+        default=False,
+        description="Lets a server with accounts start with the launcher `process`, by which the Python of "
+        "every user runs as the server itself: it can read and change all projects, the database and its "
+        "secrets. Only for people who trust each other.",
     )
     keeper_folder: Path = Field(
         default=Path("/run/bt-studio-keeper"),
         description="Folder shared with the keeper, with the sockets of the executors that it started.",
-    )
-    executor_hosts: tuple[str, ...] = Field(
-        default=(),
-        description="Further machines (a JSON list of HOST or HOST:PORT) on which `docker` starts executors.",
     )
     pod_template: Path = Field(
         default=Path("/etc/bt-studio/executor-pod.yaml"),
@@ -174,6 +196,18 @@ class Environment(ObjectStoreSettings, TeamSettings):
         description="Room for all large bodies, uploads and downloads of all users that are on their way, "
         "of one server. Its workers share it equally.",
     )
+    max_unread_bytes_per_owner: int = Field(
+        default=32 * MEBIBYTE,
+        gt=0,
+        description="Team mode: bytes of answers on their way to one user, or to all guests of one address; "
+        "further requests are refused for a moment.",
+    )
+    max_unread_bytes: int = Field(
+        default=256 * MEBIBYTE,
+        gt=0,
+        description="Bytes of answers on their way to all users of one server; messages on their way to "
+        "robots may take as many again. Its workers share both equally.",
+    )
     min_free_bytes: int = Field(
         default=512 * MEBIBYTE,
         ge=0,
@@ -190,6 +224,9 @@ class Environment(ObjectStoreSettings, TeamSettings):
     draft_days: int = Field(default=30, ge=1, description="Days after which an unsaved draft is forgotten.")
     max_language_servers: int = Field(
         default=16, ge=0, description="Number of editors that get help with Python at a time; 0 for none."
+    )
+    max_tests: int = Field(
+        default=8, ge=1, description="Number of tests with Python that run at a time; further ones wait."
     )
     language_idle_s: float = Field(
         default=900.0, gt=0, description="After how long without typing a language server is ended."
@@ -214,31 +251,39 @@ class Environment(ObjectStoreSettings, TeamSettings):
 
         Two servers can share neither an SQLite file nor the child processes of one of them.
         """
-        return self.is_team and self.is_postgresql and self.launcher != "process"
+        return self.is_team and self.is_postgresql and self.has_containers
 
     @property
-    def hosts_folder(self) -> Path:
-        """The folder of the certificates of further machines."""
-        return self.data_dir / "hosts"
+    def has_containers(self) -> bool:
+        """Whether the Python of users runs in containers or pods, where it has no rights of the server."""
+        return self.launcher != "process"
+
+    @property
+    def users_run_as_server(self) -> bool:
+        """Whether the Python of several users runs with the rights of the server, on purpose."""
+        return self.is_team and not self.has_containers
+
+    def processes(self, cores: int, limit_mib: int | None) -> Processes:
+        """Returns the processes that this server starts; `limit_mib` is the memory of its container."""
+        return fitting(
+            self.mode,
+            cores,
+            limit_mib,
+            workers=self.workers if self.may_be_several else 1,
+            large=self.work_processes,
+            each_mib=self.work_memory_mib,
+            unread_bytes=self.max_unread_bytes,
+        )
 
     @property
     def rayjob_file(self) -> Path | None:
         """The file of the RayJob of evaluations; None if they run as sessions do."""
         return self.rayjob_template if self.evaluations == "rayjob" else None
 
-    @field_validator("executor_hosts")
-    @classmethod
-    def _hosts(cls, value: tuple[str, ...]) -> tuple[str, ...]:
-        found = tuple(_with_port(text) for text in value)
-        if len(set(found)) < len(found):
-            raise ValueError("a host is named twice")
-        return found
-
     @model_validator(mode="after")
     def _launcher_fits(self) -> Self:
-        if self.executor_hosts and self.launcher != "docker":
-            sentence = "BT_STUDIO_EXECUTOR_HOSTS needs BT_STUDIO_LAUNCHER=docker"
-            raise MissingSettingError("launcher", sentence)
+        if self.users_run_as_server and not self.unsafe_users_run_as_server:
+            raise MissingSettingError("launcher", _UNSAFE)
         if self.evaluations == "rayjob" and self.launcher != "kubernetes":
             sentence = "BT_STUDIO_EVALUATIONS=rayjob needs BT_STUDIO_LAUNCHER=kubernetes"
             raise MissingSettingError("launcher", sentence)
@@ -256,16 +301,6 @@ class Environment(ObjectStoreSettings, TeamSettings):
     @classmethod
     def _absolute(cls, value: Path) -> Path:
         return value.expanduser().absolute()
-
-
-def _with_port(text: str) -> str:
-    """Returns HOST:PORT of a host as the administrator writes it."""
-    found = HOST_ADDRESS.fullmatch(text.strip().lower())
-    if found is None or not 0 < int(found["port"] or RELAY_PORT) < 65536:
-        raise ValueError(f"“{text}” is neither HOST nor HOST:PORT")
-    if len(found["host"]) > LONGEST_HOST:
-        raise ValueError(f"“{text[:40]}…” has more than {LONGEST_HOST} characters")
-    return f"{found['host']}:{found['port'] or RELAY_PORT}"
 
 
 def sentence(error: ValidationError) -> str:
@@ -293,8 +328,12 @@ def environment() -> Environment:
     """Reads the environment once.
 
     Raises:
-        InvalidEnvironmentError: a variable has a value that cannot be used.
+        InvalidEnvironmentError: a variable has a value that cannot be used, or is one of an earlier release.
     """
+    for removed, instead in REMOVED.items():
+        # Compose files of earlier releases pass an empty list on.
+        if os.environ.get(PREFIX + removed, "") not in {"", "[]"}:
+            raise InvalidEnvironmentError(f"{PREFIX}{removed}: {instead}")
     try:
         return Environment()
     except SettingsError as error:

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Final
 
 from pydantic import SecretStr
 
-from backend.config.environment import MEBIBYTE, PREFIX, REPOSITORY, Environment
+from backend.config.environment import PREFIX, REPOSITORY, Environment
+from backend.core.processes.memory import MEBIBYTE
 
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo

@@ -127,8 +127,6 @@ SILENCED_SYSTEM_CHECKS = [
     "admin.E410",
 ]
 
-# --- accounts: used in team mode alone --------------------------------------------------------------
-
 _REDIS = ENVIRONMENT.redis_url.get_secret_value()
 CACHES: dict[str, dict[str, Any]] = {
     "default": {"BACKEND": "django.core.cache.backends.redis.RedisCache", "LOCATION": _REDIS}
@@ -237,6 +235,8 @@ SPECTACULAR_SETTINGS: dict[str, Any] = {
         "ProjectRole": ["viewer", "editor", "owner"],
         "SharedRole": ["viewer", "editor"],
         "EvaluationState": "backend.evaluations.choices.JobState",
+        "SessionKindEnum": "backend.sessions.choices.SessionKind",
+        "SessionStateEnum": "backend.sessions.choices.SessionState",
         "RunOutcome": "backend.evaluations.choices.Result",
     },
     "POSTPROCESSING_HOOKS": [

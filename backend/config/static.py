@@ -12,6 +12,7 @@ from django.views.decorators.http import require_safe
 from whitenoise.middleware import WhiteNoiseMiddleware
 
 from backend.accounts.identity import identify
+from backend.core.scopes import API
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +29,7 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
 
     def __call__(self, request: HttpRequest) -> HttpResponse:
         """Serves a file if it exists. Paths that never name files are skipped."""
-        is_api = request.path_info.startswith("/api/")
+        is_api = request.path_info.startswith(API)
         answer: HttpResponse = self.get_response(request) if is_api else super().__call__(request)
         return answer
 

@@ -41,7 +41,8 @@ class TeamSettings(BaseSettings):
     database_url: SecretStr = Field(
         default=SecretStr(""),
         description="`postgresql://user:password@host:5432/name`; without it SQLite in the data folder. "
-        "Team mode needs one (`sqlite:////folder/file` will do for a few users).",
+        "Team mode needs one; `sqlite:////folder/file` will do for a few users, in one process. It isolates "
+        "nobody: that is for `BT_STUDIO_LAUNCHER`.",
     )
     redis_url: SecretStr = Field(
         default=SecretStr(""),
@@ -86,6 +87,26 @@ class TeamSettings(BaseSettings):
     oidc_name: str = Field(default="Single sign-on", description="What the button of that login says.")
     expensive_calls_per_minute: int = Field(
         default=60, ge=1, description="Team mode: exports, imports, packages and starts of one user a minute."
+    )
+    max_user_sessions: int = Field(
+        default=2,
+        ge=0,
+        description="Team mode: robots of one user that run at a time; further ones wait. 0: no limit.",
+    )
+    max_user_language_servers: int = Field(
+        default=2,
+        ge=0,
+        description="Team mode: editors of one user that get help with Python at a time. 0: no limit.",
+    )
+    max_user_tests: int = Field(
+        default=2,
+        ge=0,
+        description="Team mode: tests with Python of one user that run at a time. 0: no limit.",
+    )
+    max_user_waiting: int = Field(
+        default=2,
+        ge=1,
+        description="Team mode: robots (editors, tests) of one user that wait; further ones are refused.",
     )
     audit_days: int = Field(default=365, ge=1, description="Days that the audit log is kept.")
 
@@ -169,6 +190,10 @@ class TeamSettings(BaseSettings):
     def is_team(self) -> bool:
         """Whether the server has accounts."""
         return self.mode == "team"
+
+    def of_one_user(self, most: int) -> int:
+        """Returns how many places one user may hold where a setting says `most`; 0 is no limit."""
+        return most if self.is_team else 0
 
     @property
     def is_postgresql(self) -> bool:

@@ -15,6 +15,7 @@ api: list[URLPattern | URLResolver] = [
     path("", include("backend.runs.urls")),
     path("", include("backend.evaluations.urls")),
     path("", include("backend.language.urls")),
+    path("", include("backend.imports.urls")),
     path("", include("backend.accounts.api.urls")),
     path("openapi.json", OpenApi.as_view()),
     path("docs", docs),

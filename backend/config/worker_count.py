@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Final
 
 from backend.config.server import ServeError
+from backend.core.processes.memory import limit_mib
 
 if TYPE_CHECKING:
     from backend.config.environment import Environment
@@ -56,7 +57,20 @@ def workers_of(settings: Environment) -> int:
             f"the database, which admits enough for {most}: raise max_connections of PostgreSQL, or use "
             f"--workers {most}."
         )
-    return settings.workers or min(max(1, cores() - 1), most)
+    return settings.workers or min(settings.processes(cores(), limit_mib()).workers, most)
+
+
+def too_little_memory(settings: Environment) -> str:
+    """Returns a sentence if the processes may take more memory than the container has; else ""."""
+    limit = limit_mib()
+    needed = settings.processes(cores(), limit).needed_mib()
+    if limit is None or needed <= limit:
+        return ""
+    return (
+        f"This server's processes may take {needed} MiB of memory, but its container has {limit} MiB, and "
+        "the kernel ends what exceeds it: raise its limit, or lower BT_STUDIO_WORKERS, "
+        "BT_STUDIO_WORK_PROCESSES, BT_STUDIO_WORK_MEMORY_MIB or BT_STUDIO_MAX_UNREAD_BYTES."
+    )
 
 
 def admitted_connections(url: str) -> int:

@@ -86,9 +86,6 @@ def say(sentence: str) -> None:
     print(f"set-up: {sentence}", flush=True)
 
 
-# --- requirements of the machine ------------------------------------------------------------------
-
-
 def check_machine() -> None:
     """Checks the platform, since PyBullet and ROS 2 have wheels for one platform only."""
     if sys.platform != "linux" or platform.machine() not in ("x86_64", "AMD64"):
@@ -121,9 +118,6 @@ def output_of(command: list[str]) -> str | None:
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout
     except (OSError, subprocess.CalledProcessError):
         return None
-
-
-# --- the steps ------------------------------------------------------------------------------------
 
 
 def python_step() -> Step:
@@ -252,9 +246,6 @@ def interfaces_step() -> Step:
     )
 
 
-# --- running a step -------------------------------------------------------------------------------
-
-
 def take(step: Step) -> None:
     """Runs a step, unless its result is up to date."""
     stamp = stamp_file(step.name)
@@ -289,9 +280,6 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
     except (OSError, subprocess.CalledProcessError) as error:
         shown = " ".join(command[:4])
         stop(f"`{shown} …` failed ({error}); what it says stands above. Fix it and run make again.")
-
-
-# --- Debian packages for the tests ----------------------------------------------------------------
 
 
 def ensure_debian_packages() -> None:

@@ -16,10 +16,15 @@ from backend.accounts.identity import the_local_user
 from backend.accounts.writes import local_user
 from backend.config.environment import environment
 from backend.core import guard
+from backend.core.connection_costs import messages
+from backend.core.readers import readers
 from backend.core.scratch import scratch
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.storage.cache import kept_stored
+from backend.workers import priorities
+from tests.backend import emptied, migrated
 from tests.backend.bucket import bucket
+from tests.backend.preloaded import preloading
 
 HOST = "127.0.0.1:8000"
 
@@ -64,12 +69,48 @@ class Api:
         )
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _workers_end():
+    """Ends the workers of this process with its last test, and not only at its exit."""
+    yield
+    if priorities.pool.cache_info().currsize and isinstance(pools := priorities.pool(), priorities.Pools):
+        pools.close()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _programs_are_forked():
+    with preloading():
+        yield
+
+
 @pytest.fixture(scope="session")
 def django_db_modify_db_settings(tmp_path_factory):
     """A file, as in production: SQLite's databases in memory lock whole tables among threads."""
     if environment().is_postgresql:
         return
     settings.DATABASES["default"]["TEST"]["NAME"] = str(tmp_path_factory.mktemp("database") / "test.sqlite3")
+
+
+@pytest.fixture(scope="session")
+def django_db_setup(django_db_setup, django_db_blocker):
+    """Servers that tests start get a copy of the new database."""
+    with django_db_blocker.unblock():
+        emptied.begin()
+        migrated.take_sqlite(connections["default"])
+
+
+@pytest.fixture(scope="session")
+def warm_postgresql():
+    """A PostgreSQL for all tests that do not end it."""
+    with migrated.warm_postgresql() as server:
+        yield server
+
+
+@pytest.fixture
+def database_url(warm_postgresql):
+    """The URL of a PostgreSQL database with all tables."""
+    with warm_postgresql.database_url() as url:
+        yield url
 
 
 @pytest.fixture(autouse=True)
@@ -130,22 +171,26 @@ def settings_of(monkeypatch):
             monkeypatch.setenv(f"BT_STUDIO_{name.upper()}", str(value))
         environment.cache_clear()
         scratch.cache_clear()
+        readers.cache_clear()
+        messages.cache_clear()
 
     yield change
     environment.cache_clear()
     scratch.cache_clear()
+    readers.cache_clear()
+    messages.cache_clear()
 
 
 @pytest.fixture(scope="session")
-def _bucket():
+def warm_bucket():
     with bucket() as made:
         yield made
 
 
 @pytest.fixture
-def objects(_bucket, settings_of):
+def objects(warm_bucket, settings_of):
     """A real object store, which is set, with an empty bucket."""
-    _bucket.fresh()
-    settings_of(**_bucket.settings)
+    warm_bucket.fresh()
+    settings_of(**warm_bucket.settings)
     kept_stored.clear()
-    return _bucket
+    return warm_bucket

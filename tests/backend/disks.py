@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import subprocess
 import tempfile
 from contextlib import contextmanager
@@ -20,6 +21,26 @@ class SmallDisk:
         self.mounted = mounted
         # The command before a program that makes the limit apply to it.
         self.prefix = () if mounted else ("prlimit", f"--fsize={mebibytes * MEBIBYTE // 4}")
+
+    @contextmanager
+    def limited(self):
+        """Makes the limit apply to this process, too."""
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        if not self.mounted:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (MEBIBYTE // 4, before[1]))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+    def limited_at(self, function):
+        """Returns a function for which alone the limit applies: what comes before it has room in `/tmp`."""
+
+        def limited(*arguments):
+            with self.limited():
+                return function(*arguments)
+
+        return limited
 
     def grow(self, mebibytes):
         if self.mounted:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -11,6 +10,10 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
+
+from tests.backend.migrated import add_sqlite
+from tests.backend.preloaded import preloaded
+from tests.backend.programs import environment_with
 
 REPOSITORY = Path(__file__).parents[2]
 TIMEOUT_S = 240
@@ -46,15 +49,19 @@ def start(folder, *arguments, prefix=(), program=PROGRAM, log=None, repository=R
     """A process that serves, or tries to; started by the program `prefix`, if any.
 
     What it says goes to the two open files `log`, for output and errors, or to pipes, which hold 64 KB: a
-    server that says more waits. Its program is that of `repository`.
+    server that says more waits. Its program is that of `repository`. With files it is forked, where
+    `preloaded` allows it.
     """
+    command = [*program, "serve", "--no-browser", "--data-dir", str(folder), *arguments]
+    own = environment_with(environment, repository)
+    if log and not prefix and program is PROGRAM and repository == REPOSITORY and (forking := preloaded()):
+        streams = (0, log[0].fileno(), log[1].fileno())
+        return forking.start(*command[1:], env=own, streams=streams)
     output, errors = log or (subprocess.PIPE, subprocess.PIPE)
-    clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
-    command = [sys.executable, *program, "serve", "--no-browser", "--data-dir", str(folder)]
     return subprocess.Popen(
-        [*prefix, *command, *arguments],
+        [*prefix, sys.executable, *command],
         cwd=repository,
-        env=clean | {"PYTHONPATH": str(repository)} | environment,
+        env=own,
         stdout=output,
         stderr=errors,
         text=True,
@@ -72,8 +79,22 @@ def await_ready(process, ready_file, said=str):
 
 
 @contextmanager
-def serving(folder, *arguments, prefix=(), program=PROGRAM, log=None, repository=REPOSITORY, **environment):
-    """A server on a free port, which is stopped at the end; it writes to the open file `log`, if any."""
+def serving(
+    folder,
+    *arguments,
+    prefix=(),
+    program=PROGRAM,
+    log=None,
+    repository=REPOSITORY,
+    is_migrated=True,
+    **environment,
+):
+    """A server on a free port, which is stopped at the end; it writes to the open file `log`, if any.
+
+    It finds the tables of a new database in its data folder, unless it shall make them, or uses another one.
+    """
+    if is_migrated and repository == REPOSITORY and "BT_STUDIO_DATABASE_URL" not in environment:
+        add_sqlite(Path(folder))
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
     own = ("--port", "0", "--ready-file", str(ready_file))

@@ -17,6 +17,7 @@ from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation
 from tests.backend.evaluations.conftest import ROOM, begin, done, store
 from tests.executor.recorder.outside.logs import SAMPLES
+from tests.executor.uploads.zips import CART
 
 FORWARD = '''"""Drives ahead."""
 
@@ -157,6 +158,7 @@ def play(story, teacher, student, stranger, guest):
     _people(story, teacher, student, one, guest)
     _run(story, teacher, one)
     _evaluate(story, teacher, one)
+    _import(story, teacher, one)
     _tools(story, teacher)
     _end(story, teacher, student, one)
 
@@ -186,6 +188,8 @@ def _files(story, teacher, one):
     tested = {"files": [{"path": "tests/main.test.yaml", "content": TESTS}]}
     story.ask(teacher, "POST", f"{one}/test", tested)
     story.ask(teacher, "POST", f"{one}/test-with-python", tested)
+    story.ask(teacher, "GET", f"{one}/test-with-python")
+    story.ask(teacher, "DELETE", f"{one}/test-with-python", status=404)
     story.ask(teacher, "POST", "actions/inspect", {"filename": "actions/Forward.py", "source": FORWARD})
     for address in (
         "app",
@@ -258,6 +262,7 @@ def _people(story, teacher, student, one, guest):
 def _run(story, teacher, one):
     session = story.ask(teacher, "POST", f"{one}/session")
     story.ask(teacher, "GET", f"sessions/{session['id']}")
+    story.ask(teacher, "GET", "sessions")
     story.ask(teacher, "POST", "sessions/attached/prepare", status=204)
     story.ask(teacher, "POST", "sessions/attached", {"address": "robot.local"})
     run = story.ask(teacher, "POST", f"{one}/runs", {"run": "a1", "name": "Into the crate"}, status=201)
@@ -273,6 +278,14 @@ def _run(story, teacher, one):
     opened = story.ask(teacher, "POST", "runs/logs?filename=patrol.btlog", data=log, status=201)
     story.ask(teacher, "DELETE", f"runs/{opened['id']}", status=204)
     story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
+
+
+def _import(story, teacher, one):
+    query, cart = "filename=cart.urdf", CART.encode()
+    story.ask(teacher, "POST", f"{one}/imports/inspect?{query}", data=cart)
+    story.ask(teacher, "POST", f"{one}/imports?{query}&kind=robot&name=cart", data=cart, status=201)
+    story.ask(teacher, "POST", f"{one}/imports?{query}&kind=robot&name=cart", data=cart, status=409)
+    story.ask(teacher, "POST", f"{one}/imports?{query}&kind=robot", data=b"<robot name='cart'>", status=422)
 
 
 def _evaluate(story, teacher, one):

@@ -64,7 +64,6 @@ REFUSED = "EPERM"
     [
         ("gate", {"inet", "netlink", "connect", "fork", "program", "thread"}),
         ("keeper", {"inet", "netlink", "program"}),
-        ("relay", {"netlink", "program"}),
         ("web", set()),
     ],
 )

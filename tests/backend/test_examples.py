@@ -12,6 +12,8 @@ import pytest
 from backend.config import examples
 from backend.config.schema_view import document
 from backend.evaluations import views
+from backend.imports import runner
+from backend.imports import views as imports
 from backend.language import behaviours, ruff
 from backend.language import views as language
 from backend.runs import logs, views_mine
@@ -41,6 +43,7 @@ def told(person, stranger, manager, monkeypatch):  # noqa: F811
     # A team's server reads logs and checks Python in containers.
     for module in (logs, views_mine):
         monkeypatch.setattr(module, "require_converter", lambda: None)
+    monkeypatch.setattr(imports, "runner", lambda user: runner.run_beside)
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
     monkeypatch.setattr(language, "runner", lambda user: behaviours.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")

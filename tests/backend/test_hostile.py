@@ -13,8 +13,10 @@ import requests
 from websockets.asyncio.client import connect
 from websockets.protocol import State
 
+from tests.backend.programs import sign_in
+from tests.backend.services import redis
 from tests.backend.serving import serving
-from tests.benchmarks.load import sign_in, team
+from tests.benchmarks.load import settings_of
 from tests.budget import count
 from tests.hostile.bystander import Bystander
 from tests.hostile.guest import all_at_once
@@ -31,11 +33,15 @@ pytestmark = [pytest.mark.timeout(900)]
 
 
 @pytest.fixture(scope="module")
-def server(tmp_path_factory):
+def server(tmp_path_factory, warm_postgresql):
     """The server with two accounts, and the cookies of both."""
     folder = tmp_path_factory.mktemp("hostile")
     with ExitStack() as stack:
-        settings, port = team(stack, folder, sqlite=False)
+        services = {
+            "BT_STUDIO_DATABASE_URL": stack.enter_context(warm_postgresql.database_url()),
+            "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
+        }
+        settings, port = settings_of(services)
         served = stack.enter_context(serving(folder, "--port", str(port), **settings))
         yield served, [cookie for _, cookie in sign_in(folder, settings, 2)]
 

@@ -34,6 +34,16 @@ CALLS = {
     "list_runs": ("GET", "projects/{id}/runs", None),
     "list_evaluations": ("GET", "projects/{id}/evaluations", None),
     "list_my_runs": ("GET", "runs", None),
+    "list_sessions": ("GET", "sessions", None),
+    "tree_api_list": ("GET", "/tree_api/get_project_list/", None),
+    "tree_api_graph": ("GET", "/tree_api/get_project_graph/?project_name=tree_api_graph", None),
+    "tree_api_files": ("GET", "/tree_api/get_file_list/?project_name=tree_api_files", None),
+    "tree_api_file": ("GET", "/tree_api/get_file/?project_name=tree_api_file&filename=A1.py", None),
+    "tree_api_save": (
+        "POST",
+        "/tree_api/save_file/",
+        {"project_name": "tree_api_save", "filename": "A1.py", "content": "x"},
+    ),
 }
 
 

@@ -7,19 +7,17 @@ notify neither of them.
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
 from contextlib import ExitStack
 
 import pytest
 import requests
 
-from tests.backend.services import postgresql, redis
-from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving
+from tests.backend.programs import run_program, sign_in
+from tests.backend.services import redis
+from tests.backend.serving import serving
 from tests.backend.test_postgresql import PASSWORD, signed_in
-from tests.benchmarks.load import settings_of, sign_in
+from tests.benchmarks.load import settings_of
 
 ACCOUNTS = 9
 pytestmark = pytest.mark.timeout(300)
@@ -60,9 +58,9 @@ class Browser:
 class Team:
     """The servers, their accounts, and an administrator who is signed in at the first."""
 
-    def __init__(self, stack, folder):
+    def __init__(self, stack, folder, database_url):
         services = {
-            "BT_STUDIO_DATABASE_URL": stack.enter_context(postgresql(fsync="off")),
+            "BT_STUDIO_DATABASE_URL": database_url,
             "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
         }
         self._settings, _ = settings_of(services)
@@ -92,11 +90,8 @@ class Team:
 
     def terminal(self, *arguments, text=""):
         """`bt-studio admin`."""
-        command = [sys.executable, "-m", "backend.cli.main", "admin", *arguments]
-        environment = os.environ | self._settings | {"BT_STUDIO_DATA_DIR": str(self._folder)}
-        subprocess.run(
-            command, cwd=REPOSITORY, env=environment, check=True, input=text, text=True, timeout=TIMEOUT_S
-        )
+        own = {**self._settings, "BT_STUDIO_DATA_DIR": str(self._folder)}
+        run_program("backend.cli.main", "admin", *arguments, said=text, **own)
 
     def edit(self, account, **rights):
         """Sets the rights of an account on its administration page; all others are removed."""
@@ -110,9 +105,10 @@ class Team:
 
 
 @pytest.fixture(scope="module")
-def team(tmp_path_factory):
+def team(tmp_path_factory, warm_postgresql):
     with ExitStack() as stack:
-        yield Team(stack, tmp_path_factory.mktemp("servers"))
+        database_url = stack.enter_context(warm_postgresql.database_url())
+        yield Team(stack, tmp_path_factory.mktemp("servers"), database_url)
 
 
 def signs_out(team, account):

@@ -6,8 +6,10 @@ from contextlib import ExitStack
 
 import pytest
 
+from tests.backend.programs import sign_in
+from tests.backend.services import redis
 from tests.backend.serving import serving
-from tests.benchmarks.load import sign_in, team
+from tests.benchmarks.load import settings_of
 from tests.benchmarks.saves import storm
 from tests.budget import count
 
@@ -15,9 +17,13 @@ CLIENTS = 8
 pytestmark = [pytest.mark.timeout(900)]
 
 
-async def test_no_answer_to_a_save_is_false(tmp_path):
+async def test_no_answer_to_a_save_is_false(tmp_path, database_url):
     with ExitStack() as stack:
-        settings, port = team(stack, tmp_path, sqlite=False)
+        services = {
+            "BT_STUDIO_DATABASE_URL": database_url,
+            "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
+        }
+        settings, port = settings_of(services)
         stack.enter_context(serving(tmp_path, "--port", str(port), **settings))
         answers = await storm(port, sign_in(tmp_path, settings, CLIENTS), count("true_saves"))
     assert answers.false == []

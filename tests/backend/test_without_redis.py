@@ -14,12 +14,13 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from tests.backend.config.test_web_workers import until
-from tests.backend.services import postgresql, redis_server
+from tests.backend.programs import sign_in
+from tests.backend.services import redis_server
 from tests.backend.serving import TIMEOUT_S, serving
 from tests.backend.sessions.keeper.conftest import Host
-from tests.benchmarks.load import settings_of, sign_in
+from tests.benchmarks.load import settings_of
 
-pytestmark = pytest.mark.timeout(300)
+pytestmark = [pytest.mark.kills, pytest.mark.timeout(300)]
 TRY_AGAIN_LATER = 1013
 SAVES = 3
 
@@ -27,13 +28,13 @@ SAVES = 3
 class Team:
     """A server with PostgreSQL, Redis and a keeper, and an account that is signed in."""
 
-    def __init__(self, stack: ExitStack, folder: Path):
+    def __init__(self, stack: ExitStack, folder: Path, database_url: str):
         self.redis = stack.enter_context(redis_server())
         self.log = folder / "log"
         host = Host(folder, "manager", 2, patience_s=60)
         stack.callback(host.close)
         services = {
-            "BT_STUDIO_DATABASE_URL": stack.enter_context(postgresql(fsync="off")),
+            "BT_STUDIO_DATABASE_URL": database_url,
             "BT_STUDIO_REDIS_URL": self.redis.url,
             "BT_STUDIO_LAUNCHER": "docker",
             "BT_STUDIO_KEEPER_FOLDER": str(host.folder),
@@ -67,9 +68,9 @@ class Team:
 
 
 @pytest.fixture
-def team():
+def team(database_url):
     with tempfile.TemporaryDirectory() as name, ExitStack() as stack:  # the path of a socket is short
-        yield Team(stack, Path(name))
+        yield Team(stack, Path(name), database_url)
 
 
 def told(socket):

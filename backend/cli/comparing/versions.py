@@ -26,8 +26,8 @@ def open_version(name: str) -> Version:
     from translator.diagram import restore
     from translator.difference.projects import version_of, version_of_tree
     from translator.jderobot.graph import looks_like_graph
-    from translator.opening import XML_SUFFIXES
     from translator.settings import PROJECT_FILE
+    from translator.xml.includes import SUFFIXES
 
     path = Path(name)
     if not path.exists() and (found := _REVISION.fullmatch(name)):
@@ -40,7 +40,7 @@ def open_version(name: str) -> Version:
                 raise TranslatorError(problems)
             return version_of_tree(tree, name)
     project = cli.open_project(name, stubs=False)
-    is_xml = path.suffix.lower() in XML_SUFFIXES or (path.is_dir() and not (path / PROJECT_FILE).exists())
+    is_xml = path.suffix.lower() in SUFFIXES or (path.is_dir() and not (path / PROJECT_FILE).exists())
     return version_of(
         project, name, is_xml=is_xml and any(each.startswith("imports/") for each in project.files)
     )

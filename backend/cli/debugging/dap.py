@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def dap() -> None:
-    """Speaks the Debug Adapter Protocol on standard input and output; it debugs projects as `debug` does."""
+    """Debugs a project with an editor: speaks the Debug Adapter Protocol on standard input and output."""
     from backend.cli.run import fix_hashes
 
     fix_hashes()

@@ -88,7 +88,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     arguments.
     """
     from backend.cli.evaluating.one_run import evaluations_of
-    from backend.cli.run import fix_hashes
+    from backend.cli.run import fix_hashes, say_left_out
     from backend.cli.shared.errors import CliError
     from executor.evaluation.summary import Apart, pair
     from executor.supervision.single_threaded import SINGLE_THREADED
@@ -106,6 +106,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     plan = _plan(
         project, name, runs, judged_by, to_the_end=to_the_end, is_part=seeds is not None or only_failed
     )
+    say_left_out(plan.project)
     plan = _sealed(plan) if sealed else plan
     chosen = _seeds(plan, seeds, report if only_failed else None)
     if report is not None:
@@ -292,6 +293,7 @@ def _open_results(
     """Returns the folder of results, with the outcomes that are kept."""
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from executor.evaluation.fingerprint import fingerprint
+    from executor.evaluation.report import world_of
     from executor.evaluation.results import Results, ResultsError, inputs_of, kept_outcomes
 
     if folder is None:
@@ -312,6 +314,7 @@ def _open_results(
                 "project": plan.project.settings.name,
                 "evaluation": plan.name,
                 "inputs": inputs_of(plan),
+                "universe": world_of(plan.universe)["version"],
                 "seeds": len(seeds),
                 "to_the_end": plan.to_the_end,
                 "sealed": plan.sealed,
@@ -365,11 +368,14 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
 ) -> list[Verdict]:
     """Prints and writes the results; returns the verdicts of the gates."""
     from executor.evaluation.gates import check_gate
-    from executor.evaluation.report import command_of, report_data, report_html
+    from executor.evaluation.report import command_of, report_data, report_html, world_of
     from executor.evaluation.summary import Pairs
+    from executor.headless.left_out import left_out
 
     for line in summary.lines(plan.name):
         print(line)
+    world = world_of(plan.universe)
+    print(f"    in the universe “{world['name']}”, version {world['version']}")
     for outcome in summary.worst()[:3]:
         print(f"    seed {outcome.seed} {outcome.outcome} after {outcome.end_s:.1f} s: {outcome.why}")
         print(f"        {command_of(project, plan.name, outcome.seed, plan.judged_by)}")
@@ -392,6 +398,7 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
             pairs=pairs,
             fingerprints=[each["id"] for each in header["fingerprints"]],
             judged_by=plan.judged_by,
+            notes=left_out(plan.project.files),
         )
         results.write("report.html", report_html(document))
         print(f"results: {results.folder / 'report.html'}")

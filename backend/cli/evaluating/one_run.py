@@ -29,12 +29,13 @@ def run_one(  # noqa: PLR0913 - one an option
     as_json: bool,
 ) -> None:
     """Runs one seed, prints its outcome, and fails unless it is a success."""
-    from backend.cli.run import fix_hashes
+    from backend.cli.run import fix_hashes, say_left_out
     from backend.cli.shared import translation as cli
     from backend.cli.shared.errors import CliError
 
     fix_hashes(SINGLE_THREADED)
     plan = open_plan(project, name, judged_by=judged_by, as_json=as_json)
+    say_left_out(plan.project)
     outcome = _run(plan, seed, record)
     document = outcome.to_line() + "\n"
     if report is not None:

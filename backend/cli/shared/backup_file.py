@@ -26,6 +26,7 @@ from backend import __version__
 from backend.cli.shared.backup_age import applied_migrations, require_readable
 from backend.cli.shared.backup_error import BackupError
 from backend.cli.shared.backup_objects import Returning, copy_objects, number_of_objects
+from translator.unzip import DAMAGED, ArchiveTooLargeError, Limits, chunks, open_zip
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -50,6 +51,9 @@ LEFT_OUT: Final = frozenset(
 )
 ROWS_AT_ONCE: Final = 50
 MAX_LINE_BYTES: Final = 512 * 1024 * 1024
+MAX_MANIFEST_BYTES: Final = 64 * 1024 * 1024
+LIMITS: Final = Limits(directory_bytes=512 * 1024 * 1024, entries=2_000_000)
+"""A backup has an entry for each object of the store; 2 million of them take about 1.5 GB when it is read."""
 
 
 def write_backup(
@@ -63,10 +67,15 @@ def write_backup(
         told: is called with the progress.
 
     Raises:
-        BackupError: an object is missing or damaged.
+        BackupError: an object is missing or damaged, or there are too many for one file.
         StoreError: the object store cannot be used.
     """
     tables: dict[str, dict[str, Any]] = {}
+    if has_objects and number_of_objects() + len(_models()) >= LIMITS.entries:
+        raise BackupError(
+            f"There are more than {LIMITS.entries} objects in the store, too many for one file: keep a "
+            "backup of the bucket, and write this one with --without-objects."
+        )
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive, _snapshot():
         for model in _models():
             name = model._meta.label_lower
@@ -104,15 +113,15 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
             not empty.
     """
     try:
-        with zipfile.ZipFile(source) as archive:
+        with open_zip(source, LIMITS) as archive:
             manifest = _manifest(archive)
             for name, table in manifest["tables"].items():
                 _check(archive, name, table)
             return _load(archive, manifest)
-    except (zipfile.BadZipFile, KeyError, TypeError, EOFError, OSError) as error:
-        raise BackupError(f"This is no readable backup: {error}.") from error
     except (serializers.base.DeserializationError, FieldDoesNotExist, DatabaseError) as error:
         raise BackupError(f"The backup does not have the rows of this version: {error}.") from error
+    except (ArchiveTooLargeError, KeyError, TypeError, *DAMAGED) as error:
+        raise BackupError(f"This is no readable backup: {error}.") from error
 
 
 class _ExactEncoder(DjangoJSONEncoder):
@@ -154,7 +163,8 @@ def _member(name: str) -> str:
 
 def _manifest(archive: zipfile.ZipFile) -> dict[str, Any]:
     try:
-        manifest = json.loads(archive.read(MANIFEST))
+        content = chunks(archive, archive.getinfo(MANIFEST), MAX_MANIFEST_BYTES)
+        manifest = json.loads(b"".join(content))
     except (KeyError, ValueError) as error:
         raise BackupError("This is no backup of BT Studio: it has no manifest.") from error
     if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
@@ -232,7 +242,8 @@ def _fill(archive: zipfile.ZipFile, model: type[Model], returning: Returning) ->
 
 
 def _read_lines(member: IO[bytes]) -> Iterable[str]:
-    for line in io.BufferedReader(member, 1 << 20):  # type: ignore[type-var]
+    lines = io.BufferedReader(member, 1 << 20)  # type: ignore[type-var]
+    while line := lines.readline(MAX_LINE_BYTES + 1):
         if len(line) > MAX_LINE_BYTES:
             raise BackupError("The backup is damaged: a row is too long.")
         yield line.decode()

@@ -11,13 +11,19 @@ from typing import TYPE_CHECKING, Any
 from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from translator import Diagnostic, Project
 
 
-def open_project(
-    name: str, *, actions: Path | None = None, stubs: bool = True, repair: bool = False
+def open_project(  # noqa: PLR0913 - each is a separate choice, and keyword-only
+    name: str,
+    *,
+    actions: Path | None = None,
+    stubs: bool = True,
+    repair: bool = False,
+    main: str = "",
+    order: str = "",
 ) -> Project:
     """Opens a folder, a zip, a file, or the stored project with that name."""
     from translator import open_path
@@ -29,7 +35,7 @@ def open_project(
         return load(stored)
     if not path.exists():
         raise CliError(f"{name}:1:1: there is no such file, folder or project", status=BAD_ARGUMENTS)
-    return open_path(path, actions=actions, stubs=stubs, repair=repair)
+    return open_path(path, actions=actions, stubs=stubs, repair=repair, main=main, order=order)
 
 
 def _stored_files(name: str) -> Mapping[str, bytes] | None:
@@ -78,12 +84,47 @@ def write_file(path: Path, data: bytes) -> None:
     Raises:
         CliError: If the file cannot be written.
     """
-    temporary = path.with_name(f".{path.name}.part")
+    write_files({path: data})
+
+
+def write_files(files: Mapping[Path, bytes]) -> None:
+    """Writes files, all of them completely or none of the new ones; no folder is left that was made for them.
+
+    Raises:
+        CliError: one of them cannot be written.
+    """
+    made: list[Path] = []
+    path = Path()
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_bytes(data)
-        temporary.replace(path)
-    except OSError as error:
-        with suppress(OSError):  # where a folder was expected, there may be a file
-            temporary.unlink()
+        for path, data in files.items():
+            make_folders(path.parent, made)
+            made.append(_part(path))
+            _part(path).write_bytes(data)
+        for path in files:
+            made += [] if path.exists() else [path]
+            _part(path).replace(path)
+    except BaseException as error:
+        remove_made(made)
+        if not isinstance(error, OSError):
+            raise
         raise CliError(f"{path}:1:1: it cannot be written: {error.strerror or error}") from error
+
+
+def make_folders(folder: Path, made: list[Path]) -> None:
+    """Makes a folder and those above it, and adds the new ones to a list."""
+    if folder.exists():
+        return
+    make_folders(folder.parent, made)
+    folder.mkdir()
+    made.append(folder)
+
+
+def remove_made(made: Sequence[Path]) -> None:
+    """Removes files and empty folders, the last one first; what others put there stays."""
+    for path in reversed(made):
+        with suppress(OSError):
+            path.rmdir() if path.is_dir() else path.unlink()
+
+
+def _part(path: Path) -> Path:
+    return path.with_name(f".{path.name}.part")

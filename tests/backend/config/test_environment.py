@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
-from backend.config.environment import InvalidEnvironmentError, environment
+from backend.config.environment import REMOVED, REPOSITORY, InvalidEnvironmentError, environment
 
 
 @pytest.mark.parametrize(
@@ -16,10 +18,6 @@ from backend.config.environment import InvalidEnvironmentError, environment
         ("launcher", "magic"),
         ("allowed_hosts", "a,b"),
         ("log_level", "loud"),
-        ("executor_hosts", '["https://robots.lan"]'),
-        ("executor_hosts", '["robots.lan:0"]'),
-        ("executor_hosts", f'["{"r" * 151}"]'),
-        ("executor_hosts", '["robots.lan", "Robots.lan:7164"]'),
     ],
 )
 def test_a_wrong_value_is_refused_with_the_name_of_its_variable(settings_of, name, value):
@@ -35,12 +33,20 @@ def test_values_are_read_and_paths_made_absolute(settings_of, tmp_path, monkeypa
     assert environment().allowed_hosts == ("studio.lan",)
 
 
-def test_hosts_have_a_port_and_need_containers(settings_of):
-    settings_of(executor_hosts='["Robots.lan", "10.0.0.3:99", "[fd00::1]"]', launcher="docker")
-    assert environment().executor_hosts == ("robots.lan:7164", "10.0.0.3:99", "[fd00::1]:7164")
-    settings_of(launcher="process")
-    with pytest.raises(InvalidEnvironmentError, match="BT_STUDIO_EXECUTOR_HOSTS needs"):
+@pytest.mark.parametrize("name", list(REMOVED))
+def test_a_setting_of_an_earlier_release_says_what_to_use_instead(settings_of, name):
+    settings_of(**{name: '["robots.lan"]'})
+    with pytest.raises(InvalidEnvironmentError, match=f"BT_STUDIO_{name}: this setting is gone") as refused:
         environment()
+    page = re.search(r"docs/[\w/-]+\.md", str(refused.value))
+    assert page
+    assert (REPOSITORY / page[0]).is_file()
+
+
+@pytest.mark.parametrize("value", ["", "[]"])
+def test_a_compose_file_of_an_earlier_release_that_sets_nothing_opens(settings_of, value):
+    settings_of(**dict.fromkeys(REMOVED, value))
+    environment()
 
 
 def test_the_token_is_not_shown(settings_of):

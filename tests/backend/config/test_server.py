@@ -17,9 +17,10 @@ import psutil
 import psycopg
 import pytest
 import requests
+from django.db import OperationalError
 from websockets.sync.client import connect
 
-from backend.config.server import ServeError, await_database, data_folder, make_data_folder
+from backend.config.server import ServeError, await_database, data_folder, make_data_folder, migrate
 from tests.backend.serving import serving, start
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -35,7 +36,7 @@ def failed(process):
 def running(tmp_path_factory):
     """A server that several tests use, with its data folder."""
     folder = tmp_path_factory.mktemp("served")
-    with serving(folder, BT_STUDIO_TOKEN="") as server:
+    with serving(folder, is_migrated=False, BT_STUDIO_TOKEN="") as server:
         yield folder, server
 
 
@@ -66,7 +67,8 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
         out, err = server.output
         assert server.token in out
         assert "Traceback" not in err
-        assert not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in family)
+        _, alive = psutil.wait_procs(family, timeout=60)
+        assert [p for p in alive if p.status() != psutil.STATUS_ZOMBIE] == []
 
 
 def test_an_interrupt_that_python_would_drop_ends_a_server_that_starts():
@@ -206,6 +208,23 @@ def test_a_database_that_starts_at_the_same_time_is_waited_for(monkeypatch):
     await_database("postgresql://db/studio")
     assert late.refusals == []
     assert late.is_closed
+
+
+def test_a_data_folder_that_cannot_be_written_ends_the_start_with_a_sentence(tmp_path, monkeypatch):
+    (tmp_path / "secret_key").write_text("k" * 40)
+    (tmp_path / "serve.lock").mkdir()  # it cannot be opened, also by root
+    with pytest.raises(ServeError, match=f"The data folder {tmp_path} cannot be used"), data_folder(tmp_path):
+        pass
+
+
+def test_a_database_that_cannot_be_written_ends_the_start_with_a_sentence(monkeypatch):
+    def refused(*_, **__):
+        raise OperationalError("attempt to write a readonly database")
+
+    monkeypatch.setattr("django.core.management.call_command", refused)
+    monkeypatch.setattr("backend.config.server.await_database", lambda _: None)
+    with pytest.raises(ServeError, match="cannot be used: attempt to write a readonly database"):
+        migrate()
 
 
 @pytest.mark.parametrize(

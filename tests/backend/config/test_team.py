@@ -16,7 +16,9 @@ WHOLE = {
     "database_url": "postgresql://bts:p%40ss@db:5433/studio?sslmode=require",
     "redis_url": "redis://redis:6379/0",
     "secret_key": "s" * 40,
+    "launcher": "docker",
 }
+SQLITE = WHOLE | {"database_url": "sqlite:////data/team.sqlite3", "redis_url": ""}
 
 
 def test_a_whole_set_is_taken(settings_of):
@@ -35,6 +37,32 @@ def test_what_is_missing_is_named(settings_of, name):
     settings_of(**{key: value for key, value in WHOLE.items() if key != name})
     with pytest.raises(InvalidEnvironmentError, match=f"BT_STUDIO_{name.upper()}"):
         environment()
+
+
+@pytest.mark.parametrize("services", [WHOLE, SQLITE], ids=["PostgreSQL", "SQLite"])
+@pytest.mark.parametrize("more", [{}, {"workers": 1}, {"unsafe_users_run_as_server": "false"}])
+def test_users_python_does_not_run_as_the_server_unless_a_setting_says_so(settings_of, services, more):
+    settings_of(**(services | more | {"launcher": "process"}))
+    with pytest.raises(InvalidEnvironmentError, match="as the server itself") as caught:
+        environment()
+    assert "BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER=true" in str(caught.value)
+    settings_of(unsafe_users_run_as_server="true")
+    assert environment().users_run_as_server
+
+
+@pytest.mark.parametrize("changes", [{"launcher": "docker"}, {"launcher": "kubernetes"}, {"mode": "local"}])
+def test_where_users_are_isolated_or_there_is_one_no_such_setting_is_needed(settings_of, changes):
+    settings_of(**(WHOLE | {"launcher": "process"} | changes))
+    assert not environment().users_run_as_server
+
+
+def test_the_default_launcher_ends_the_start_of_a_team_server_in_one_sentence(tmp_path):
+    settings = {f"BT_STUDIO_{name.upper()}": value for name, value in SQLITE.items() if name != "launcher"}
+    process = start(tmp_path, "--port", "0", **settings)
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 2
+    assert errors.startswith("BT_STUDIO_LAUNCHER: ")
+    assert errors.count("\n") == 1
 
 
 @pytest.mark.parametrize(

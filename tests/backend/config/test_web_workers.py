@@ -26,14 +26,15 @@ from backend.config import web_worker
 from backend.core.processes.metrics import requests as counted
 from backend.core.processes.numbers import BEAT, read_page
 from backend.core.processes.siblings import Family
-from tests.backend.services import postgresql, redis
+from tests.backend.programs import run_program
+from tests.backend.services import redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
 from tests.backend.sessions.keeper.conftest import Host
 from tests.backend.test_postgresql import PASSWORD, signed_in
 from tests.processes import command_line, with_word
 
 FIRST_COUNT = counted._places["1xx"]
-pytestmark = pytest.mark.timeout(300)
+pytestmark = [pytest.mark.kills, pytest.mark.timeout(300)]
 
 
 def until(holds, *, within_s=TIMEOUT_S):
@@ -145,12 +146,18 @@ class Several:
         return holder if holder in {process.pid for process in self.workers.values()} else None
 
 
+def create(name, *more, **settings):
+    """Makes an account in the terminal."""
+    arguments = ("admin", "create", name, "--password-stdin", *more)
+    run_program("backend.cli.main", *arguments, said=f"{PASSWORD}\n", **settings)
+
+
 @pytest.fixture(scope="module")
-def several():
+def several(warm_postgresql):
     """A server with two workers that the tests of this file share."""
     with (
         tempfile.TemporaryDirectory() as name,
-        postgresql(fsync="off") as database_url,
+        warm_postgresql.database_url() as database_url,
         redis() as redis_url,
     ):
         folder = Path(name)
@@ -164,15 +171,7 @@ def several():
             "BT_STUDIO_LAUNCHER": "docker",
             "BT_STUDIO_KEEPER_FOLDER": str(host.folder),
         }
-        make = [sys.executable, "-m", "backend.cli.main", "admin", "create", "ada", "--password-stdin"]
-        subprocess.run(
-            make,
-            cwd=REPOSITORY,
-            env=os.environ | team | {"BT_STUDIO_DATA_DIR": name},
-            input=f"{PASSWORD}\n",
-            text=True,
-            check=True,
-        )
+        create("ada", **team, BT_STUDIO_DATA_DIR=name)
         with serving(folder, "--workers", "2", **team) as served:
             found = Several(served, database_url, host)
             found.environment, found.may_run = team, made_to_wait(host.docker)
@@ -266,9 +265,7 @@ def test_the_end_of_a_session_waits_for_the_launch_of_another_worker(several):
 
 
 def test_a_closed_account_is_refused_by_every_worker_at_once(several):
-    make = [sys.executable, "-m", "backend.cli.main", "admin", "create", "bob", "--password-stdin", "--user"]
-    environment = os.environ | several.environment | {"BT_STUDIO_DATA_DIR": str(several.host.folder.parent)}
-    subprocess.run(make, cwd=REPOSITORY, env=environment, input=f"{PASSWORD}\n", text=True, check=True)
+    create("bob", "--user", **several.environment, BT_STUDIO_DATA_DIR=str(several.host.folder.parent))
     admin, several.browser = several.browser, signed_in(several.served, "bob")
     try:
         project = several.project("Bob's")

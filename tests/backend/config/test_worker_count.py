@@ -7,7 +7,7 @@ import pytest
 from backend.config import worker_count
 from backend.config.environment import environment
 from backend.config.server import ServeError
-from backend.config.worker_count import CONNECTIONS, SPARE, judge_workers, workers_of
+from backend.config.worker_count import CONNECTIONS, SPARE, judge_workers, too_little_memory, workers_of
 from tests.backend.config.test_team import WHOLE
 
 
@@ -15,9 +15,10 @@ from tests.backend.config.test_team import WHOLE
 def machine(monkeypatch, settings_of):
     """A team's server with this many cores and connections to its database."""
 
-    def make(cores, connections=100, **changes):
-        settings_of(**(WHOLE | {"launcher": "docker"} | changes))
+    def make(cores, connections=100, memory=None, **changes):
+        settings_of(**(WHOLE | {"unsafe_users_run_as_server": "true"} | changes))
         monkeypatch.setattr(worker_count, "cores", lambda: cores)
+        monkeypatch.setattr(worker_count, "limit_mib", lambda: memory)
         monkeypatch.setattr(worker_count, "admitted_connections", lambda _: connections)
         return environment()
 
@@ -34,6 +35,23 @@ def test_one_worker_serves_where_there_can_be_one_only(machine):
         settings = machine(8, **changes)
         judge_workers(settings)
         assert workers_of(settings) == 1
+
+
+def test_as_many_serve_as_fit_into_the_memory_of_the_container(machine):
+    settings = machine(8, memory=6420)
+    assert workers_of(settings) == 5
+    assert workers_of(machine(8, memory=6419)) == 4
+    assert too_little_memory(settings) == ""
+
+
+@pytest.mark.parametrize(
+    ("memory", "changes"), [(1024, {}), (6144, {"workers": 8}), (8192, {"work_processes": 12})]
+)
+def test_a_container_with_too_little_memory_is_warned_about(machine, memory, changes):
+    warning = too_little_memory(machine(8, memory=memory, **changes))
+    assert f"its container has {memory} MiB" in warning
+    assert "BT_STUDIO_WORK_PROCESSES" in warning
+    assert too_little_memory(machine(8, **changes)) == ""
 
 
 def test_as_many_workers_serve_as_are_set(machine):

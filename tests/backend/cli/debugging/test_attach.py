@@ -36,8 +36,8 @@ def test_a_program_is_followed_and_recorded_until_the_user_ends_it(tmp_path: Pat
         assert process.stderr is not None
         for text in process.stdout:
             events.append(json.loads(text))
-            if events[-1]["event"] == "status" and events[-1]["path"] == "Sleep":
-                break
+            if sum(each["event"] == "status" and each["path"] == "Sleep" for each in events) == 2:
+                break  # a whole tick has been seen
         process.send_signal(signal.SIGINT)
         process.stdout.read()
         assert process.stderr.read() == "detached\n"

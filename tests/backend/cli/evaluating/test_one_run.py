@@ -6,10 +6,12 @@ import json
 
 import pytest
 
-from backend.cli.evaluating.one_run import outcome_lines
+from backend.cli.evaluating.one_run import open_plan, outcome_lines
+from backend.cli.shared.errors import CliError
 from executor.evaluation.outcome import Outcome
 from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import write
+from tests.executor.expansion.probes import probes, robot_of, was_refused
 
 GOOD = "duration_s: 4\nruns: 2\njudge: {success: [{reach: {area: ahead}}], measure: [path_length_m]}\n"
 
@@ -58,3 +60,16 @@ def test_what_cannot_run_says_why(tmp_path, text, options, words):
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_no_macro_of_a_robot_reads_outside_of_the_judge_s_project(tmp_path):
+    (tmp_path / "secret.yaml").write_text("word: hidden")
+    project, judge = write(tmp_path / "p", GOOD), write(tmp_path / "j", f"robot: r\n{GOOD}")
+    for probe in probes(tmp_path / "secret.yaml"):
+        for path, data in robot_of(probe).items():
+            (judge / path).parent.mkdir(parents=True, exist_ok=True)
+            (judge / path).write_bytes(data)
+        with pytest.raises(CliError) as error:
+            open_plan(str(project), "main", judged_by=str(judge))
+        assert str(error.value).startswith("robots/r/r.xacro:2:1: BTR002 xacro: ")
+        assert was_refused(str(error.value))

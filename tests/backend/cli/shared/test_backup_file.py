@@ -8,9 +8,11 @@ import zipfile
 
 import pytest
 
+from backend.cli.shared import backup_file
 from backend.cli.shared.backup_error import BackupError
 from backend.cli.shared.backup_file import LEFT_OUT, MANIFEST, read_backup, write_backup
 from backend.projects.models import Blob, Project
+from translator.unzip import Limits
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -78,3 +80,25 @@ def test_a_damaged_backup_changes_nothing(archive):
         with pytest.raises(BackupError, match="no readable backup"):
             read_backup(io.BytesIO(nonsense))
     assert not Project.objects.exists()
+
+
+def test_a_backup_with_too_many_names_is_refused_before_they_are_read(archive, monkeypatch):
+    empty()
+    small = Limits(directory_bytes=1 << 20, entries=3)
+    monkeypatch.setattr(backup_file, "LIMITS", small)
+    with pytest.raises(BackupError, match="more than 3 entries"):
+        read_backup(io.BytesIO(archive))
+    with pytest.raises(BackupError, match="--without-objects"):
+        write_backup(io.BytesIO())
+    write_backup(io.BytesIO(), has_objects=False)
+
+
+def test_a_manifest_or_row_that_never_ends_is_refused(archive, monkeypatch):
+    empty()
+    monkeypatch.setattr(backup_file, "MAX_MANIFEST_BYTES", 100)
+    with pytest.raises(BackupError, match="more than 100 bytes"):
+        read_backup(io.BytesIO(archive))
+    monkeypatch.undo()
+    monkeypatch.setattr(backup_file, "MAX_LINE_BYTES", 50)
+    with pytest.raises(BackupError, match="too long"):
+        read_backup(io.BytesIO(archive))

@@ -28,6 +28,32 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
         translation.write_file(tmp_path / "a" / "b", b"x")
 
 
+def test_of_several_files_all_are_written_or_none(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "old").write_bytes(b"old")
+    taken = tmp_path / "mine" / "taken"
+    taken.mkdir()
+    files = {tmp_path / "new" / "a": b"x", tmp_path / "mine" / "old": b"y", taken: b"z"}
+    with pytest.raises(CliError, match="taken:1:1: it cannot be written"):
+        translation.write_files(files)
+    assert not (tmp_path / "new").exists()
+    assert sorted(path.name for path in (tmp_path / "mine").iterdir()) == ["old", "taken"]
+    del files[taken]
+    translation.write_files(files)
+    assert [path.read_bytes() for path in files] == [b"x", b"y"]
+
+
+def test_a_command_that_is_interrupted_leaves_nothing(tmp_path):
+    class Interrupted(dict):
+        def items(self):
+            yield tmp_path / "new" / "a", b"x"
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        translation.write_files(Interrupted())
+    assert [*tmp_path.iterdir()] == []
+
+
 def test_what_is_not_there_is_said(tmp_path, stored_place):
     with pytest.raises(CliError):
         translation.open_project(str(tmp_path / "no.xml"))

@@ -1,0 +1,1 @@
+"""Imports of robots, worlds and maps into a project."""

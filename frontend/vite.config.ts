@@ -9,6 +9,13 @@ import { validators } from './validators.ts';
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';
 
+/** Tests that need no page; those named here do. */
+const PLAIN = [
+  'src/model/**/!(copied|xml).test.ts',
+  'src/store/recording/**/!(liveSource|recording.worker|storedSource).test.ts',
+  'src/store/session/**/!(live|liveFeed|shown|traceFeed).test.ts',
+];
+
 export default defineConfig({
   plugins: [react(), validators(), fontNotices(), bounds(), compressed()],
   resolve: {
@@ -34,26 +41,40 @@ export default defineConfig({
     license: { fileName: NOTICES },
   },
   test: {
-    environment: 'jsdom',
     projects: [
       {
         extends: true,
-        test: { name: 'modules', include: ['src/**/*.test.ts'], setupFiles: ['./harness/ownState.ts'] },
+        test: {
+          name: 'plain',
+          environment: 'node',
+          include: PLAIN,
+          setupFiles: ['./harness/everything.ts', './harness/ownState.ts'],
+        },
+      },
+      {
+        extends: true,
+        test: {
+          name: 'modules',
+          environment: 'jsdom',
+          include: ['src/**/*.test.ts'],
+          exclude: PLAIN,
+          setupFiles: ['./vitest.setup.ts', './harness/everything.ts', './harness/ownState.ts'],
+        },
       },
       {
         extends: true,
         test: {
           name: 'components',
-          include: ['src/**/*.test.tsx'],
+          environment: 'jsdom',
+          include: ['{src,harness}/**/*.test.tsx'],
           // Removes what a file leaves behind in the page, its stores and its modules.
-          setupFiles: ['./harness/sharedPage.ts'],
+          setupFiles: ['./vitest.setup.ts', './harness/everything.ts', './harness/sharedPage.ts'],
         },
       },
     ],
     // Files share a process with the libraries that it has loaded, which takes most of the time of a process of
     // their own.
     isolate: false,
-    setupFiles: ['./vitest.setup.ts'],
     // Styles are left out, but for the colours that pictures are drawn with.
     css: { include: [/tokens\.css\?raw$/] },
     // A busy machine is slow, and nothing is asserted about time.

@@ -1,7 +1,9 @@
+import './harness/computedStyle';
+import './harness/editorTexts';
 import './harness/sentBodies';
-import './src/i18n/editorTexts';
 import '@testing-library/jest-dom/vitest';
 import { cleanup, configure } from '@testing-library/react';
+import React from 'react';
 import { afterEach } from 'vitest';
 
 // jsdom has no layout: Mantine asks for these at start, and neither matters to a test.
@@ -51,6 +53,18 @@ Range.prototype.getBoundingClientRect ??= () => new DOMRect();
 
 // Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
 configure({ defaultHidden: true, asyncUtilTimeout: 20_000 });
+
+// React records where each element was made, for its warnings: a tenth of what rendering takes. Beyond so many
+// it stops by itself.
+const internals = Reflect.get(
+  React,
+  '__CLIENT_INTERNALS_DO_NOT_USE_OR_WARN_USERS_THEY_CANNOT_UPGRADE',
+) as object;
+Object.defineProperty(internals, 'recentlyCreatedOwnerStacks', {
+  configurable: true,
+  get: () => 10_000,
+  set: () => undefined,
+});
 
 afterEach(cleanup);
 

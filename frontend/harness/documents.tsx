@@ -91,15 +91,17 @@ export function showRobot(editor: RobotEditor, draw: (robot: Robot) => ReactNode
   return () => read() as Robot;
 }
 
-/** Types into a field in place of what it says. */
+/** Writes into a field in place of what it says, at once: each key would draw it again. */
 export async function type(field: HTMLElement | string, text: string): Promise<void> {
-  const input = typeof field === 'string' ? screen.getByTestId(field) : field;
-  await user.clear(input);
-  await user.type(input, text);
+  await user.clear(typeof field === 'string' ? screen.getByTestId(field) : field);
+  if (text !== '') await user.paste(text);
 }
 
-/** Types into a field, and presses Enter. */
-export const write = (field: HTMLElement | string, text: string) => type(field, `${text}{Enter}`);
+/** Writes into a field, and presses Enter. */
+export async function write(field: HTMLElement | string, text: string): Promise<void> {
+  await type(field, text);
+  await user.keyboard('{Enter}');
+}
 
 /** Chooses from a list that opens at a field. */
 export async function choose(field: HTMLElement, option: string): Promise<void> {

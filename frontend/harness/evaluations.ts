@@ -29,6 +29,7 @@ export const evaluation = (more: Partial<Evaluation> = {}): Evaluation => ({
   state: 'running',
   waits_for: '',
   error: '',
+  notes: '',
   attempt: 1,
   left_s: 75,
   author: 'ada',

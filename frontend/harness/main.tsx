@@ -22,9 +22,11 @@ setNavigator({
   openTree: (id) => {
     location.search = `?tree=${id}`;
   },
+  showTree: () => true,
   openFile: () => undefined,
   showFile: () => undefined,
   openTopics: () => undefined,
+  focusField: () => undefined,
   aimAt: () => undefined,
   renamed: () => undefined,
 });

@@ -17,7 +17,7 @@ globalThis.setTimeout = Object.assign((...args: Parameters<typeof setTimeout>) =
 afterAll(() => {
   for (const timer of timers) clearTimeout(timer);
   globalThis.setTimeout = setTimeout;
-  localStorage.clear();
-  sessionStorage.clear();
+  globalThis.localStorage?.clear();
+  globalThis.sessionStorage?.clear();
   vi.resetModules();
 });

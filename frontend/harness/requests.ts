@@ -17,6 +17,7 @@ export const account = (more: Partial<Me> = {}): Me => ({
   email: 'ada@example.org',
   role: 'user',
   version: '1',
+  users_run_as_server: false,
   ...more,
 });
 

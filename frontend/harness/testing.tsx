@@ -121,9 +121,11 @@ export const action = (name: string, more: Partial<ActionModel> = {}): ActionMod
 export function watchNavigation() {
   const navigator = {
     openTree: vi.fn(),
+    showTree: vi.fn(() => true),
     openFile: vi.fn(),
     showFile: vi.fn(),
     openTopics: vi.fn(),
+    focusField: vi.fn(),
     aimAt: vi.fn(),
     renamed: vi.fn(),
   };
@@ -310,7 +312,7 @@ export function fakeServer(answers: Readonly<Record<string, unknown>>) {
     const path = pathname.replace(/^\/api\/v1/, '') + search;
     const body = sentBodies.get(request);
     requests.push({ method, path, body: typeof body === 'string' ? JSON.parse(body) : body });
-    const answer = answers[`${method} ${path}`];
+    const answer = await answers[`${method} ${path}`];
     if (answer instanceof Response) return answer.clone();
     return answer === undefined
       ? Response.json({ title: 'Not found', code: 'not_found' }, { status: 404 })

@@ -14,8 +14,10 @@ import type {
   ProjectDetail,
   ProjectSettings,
   ProjectSummary,
+  OwnSession,
   SessionInfo,
   TestReport,
+  TestTurn,
   TemplateInfo,
   UniverseInfo,
 } from './types';
@@ -23,6 +25,18 @@ import type {
 type ProjectQuery = Required<NonNullable<operations['list_projects']['parameters']['query']>>;
 export type ProjectSort = ProjectQuery['sort'];
 export type ProjectShelf = ProjectQuery['shelf'];
+
+/** The order of children on JdeRobot's canvas. */
+export type ChildOrder = 'bottom-to-top' | 'top-to-bottom';
+
+/** A file that is imported as a project, with what the user chose. */
+export interface ImportChoices {
+  readonly file: File;
+  readonly repair: boolean;
+  readonly main?: string;
+  /** The order of children; with `ask`, one that leaves a branch out is refused. */
+  readonly order?: 'ask' | ChildOrder;
+}
 
 /** One page of the list of projects, which may be long. */
 type ProjectPage = Omit<components['schemas']['ProjectList'], 'items'> & { items: ProjectSummary[] };
@@ -61,6 +75,18 @@ export const api = {
     dataOf(rest.POST('/api/v1/projects', { body })),
   getProject: (id: string, signal?: AbortSignal): Promise<ProjectDetail> =>
     dataOf(rest.GET('/api/v1/projects/{project_id}', { params: inProject(id), ...abortedBy(signal) })),
+  /** The text of a file that is left out of its project; null if it is not text. */
+  fileText: async (project_id: string, path: string, signal?: AbortSignal): Promise<string | null> => {
+    const params = { path: { project_id, path } };
+    const text = await dataOf(
+      rest.GET('/api/v1/projects/{project_id}/files/{path}', {
+        params,
+        parseAs: 'text',
+        ...abortedBy(signal),
+      }),
+    );
+    return text.includes('\u0000') ? null : text;
+  },
   patchProject: (
     id: string,
     body: { name?: string; description?: string; settings?: Partial<ProjectSettings>; base_revision: number },
@@ -77,8 +103,13 @@ export const api = {
   duplicateProject: (id: string): Promise<ProjectDetail> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/duplicate', { params: inProject(id), body: {} })),
   // The file is the body itself: it may then be larger than any other request.
-  importProject: ({ file, repair }: { file: File; repair: boolean }): Promise<ImportedProject> => {
-    const query = { filename: file.name, ...(repair ? { repair } : {}) };
+  importProject: ({ file, repair, main, order }: ImportChoices): Promise<ImportedProject> => {
+    const query = {
+      filename: file.name,
+      ...(order ? { order } : {}),
+      ...(repair ? { repair } : {}),
+      ...(main ? { main } : {}),
+    };
     return dataOf(
       rest.POST('/api/v1/projects/import', {
         params: { query },
@@ -137,6 +168,17 @@ export const api = {
         body: { files: [] },
       }),
     ),
+  /** What is before the user's tests with Python, while they wait for a place. */
+  testTurn: (id: string, signal?: AbortSignal): Promise<TestTurn> =>
+    dataOf(
+      rest.GET('/api/v1/projects/{project_id}/test-with-python', {
+        params: inProject(id),
+        ...abortedBy(signal),
+      }),
+    ),
+  /** Ends the user's tests with Python of a project, which run or wait. */
+  endTests: (id: string): Promise<void> =>
+    done(rest.DELETE('/api/v1/projects/{project_id}/test-with-python', { params: inProject(id) })),
   xml: (id: string) =>
     dataOf(rest.GET('/api/v1/projects/{project_id}/xml', { params: inProject(id), parseAs: 'text' })),
   inspectAction: (source: string, filename: string): Promise<ActionModel> =>
@@ -163,6 +205,8 @@ export const api = {
   prepareAttach: () => done(rest.POST('/api/v1/sessions/attached/prepare')),
   getSession: (session_id: string): Promise<SessionInfo> =>
     dataOf(rest.GET('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
+  /** The sessions of the user that wait, start or run, of all projects. */
+  ownSessions: async (): Promise<OwnSession[]> => (await dataOf(rest.GET('/api/v1/sessions'))).items,
   endSession: (session_id: string) =>
     done(rest.DELETE('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
 

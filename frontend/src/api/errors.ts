@@ -32,6 +32,11 @@ export class ApiError extends Error {
   get isOffline(): boolean {
     return this.problem.status === 0;
   }
+
+  /** Returns whether the server does not know this browser since it was started again: its link is new. */
+  get isRestarted(): boolean {
+    return this.problem.code === 'link_required';
+  }
 }
 
 export function offlineError(cause: unknown): ApiError {

@@ -6,6 +6,7 @@ import { reasonOf } from './reason';
 it('gives the message of an error, with the hint of the server or the session', () => {
   const problem = { title: 'Refused', status: 400, code: 'refused', detail: 'No room.' };
   expect(reasonOf(new Error('broken'))).toBe('broken');
+  expect(reasonOf('odd')).toBe('odd');
   expect(reasonOf(new ApiError(problem))).toBe('No room.');
   expect(reasonOf(new ApiError({ ...problem, hint: 'Delete one.' }))).toBe('No room. Delete one.');
   expect(reasonOf(new CommandError('port_taken', 'It is taken.', 'Choose another.'))).toBe(

@@ -51,7 +51,7 @@ export type ProjectRole = Server['ProjectRole'];
 type Kept = 'role' | 'owner' | 'size' | 'archived_at' | 'deleted_at';
 export type ProjectSummary = Needs<Server['ProjectSummary'], Exclude<keyof Server['ProjectSummary'], Kept>>;
 export type ProjectFile = Needs<Server['File'], keyof Server['FileInfo'] | 'content'>;
-export type ImportedProject = ProjectDetail & Pick<Server['ImportedProject'], 'proposal'>;
+export type ImportedProject = ProjectDetail & Pick<Server['ImportedProject'], 'proposal' | 'one_block'>;
 export type ProjectDetail = ProjectSummary &
   Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
@@ -73,6 +73,8 @@ export type CheckResult = Checked<Server['Report']>;
 /** The results of a project's behaviour tests. */
 export type TestReport = Omit<Server['TestReport'], 'problems'> & { problems: Diagnostic[] };
 export type TestOutcome = Server['TestOutcome'];
+/** The turn of tests with Python that wait for a place. */
+export type TestTurn = Needs<Server['TestTurn'], keyof Server['TestTurn']>;
 export type TestFailure = Server['TestFailure'];
 
 /** The application that the executor runs. */
@@ -81,6 +83,8 @@ export type SessionInfo = Needs<
   Server['Session'],
   'id' | 'state' | 'position' | 'control_url' | 'stream_url' | 'target'
 >;
+/** A session of the user that waits, starts or runs. */
+export type OwnSession = SessionInfo & Needs<Server['OwnSession'], 'project_id' | 'project_name'>;
 
 /** The contents of a ROS 2 package, before it is downloaded. */
 export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { diagnostics: Diagnostic[] };

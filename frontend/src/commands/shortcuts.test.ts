@@ -1,7 +1,7 @@
 import { IconFlag } from '@tabler/icons-react';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { registerCommands } from './registry';
-import { bindShortcuts } from './shortcuts';
+import { bindShortcuts, readKeyboard, shortcutLabel } from './shortcuts';
 
 const run = vi.fn();
 let unbind = () => {};
@@ -46,5 +46,42 @@ describe('bindShortcuts', () => {
   it('leaves keys to a field of text', () => {
     press('<input data-here />');
     expect(run).not.toHaveBeenCalled();
+  });
+});
+
+describe('shortcutLabel', () => {
+  afterEach(() => readKeyboard({ getLayoutMap: () => Promise.resolve(new Map()) }));
+
+  it('names keys by what an American keyboard has on them', () => {
+    const codes = [
+      'Alt+BracketLeft',
+      'Alt+Shift+BracketRight',
+      'Alt+Equal',
+      'Alt+Minus',
+      'Alt+Digit0',
+      'Escape',
+    ];
+    expect(codes.map(shortcutLabel)).toEqual(['Alt+[', 'Alt+Shift+]', 'Alt+=', 'Alt+-', 'Alt+0', 'Esc']);
+  });
+
+  it('names keys by what is printed on those of the user', async () => {
+    const layout = new Map([
+      ['Slash', '-'],
+      ['Backquote', 'º'],
+      ['KeyZ', 'y'],
+    ]);
+    await readKeyboard({ getLayoutMap: () => Promise.resolve(layout) });
+    expect(['$mod+Slash', '$mod+Backquote', '$mod+KeyZ', 'F5'].map(shortcutLabel)).toEqual([
+      'Ctrl+-',
+      'Ctrl+º',
+      'Ctrl+Y',
+      'F5',
+    ]);
+  });
+
+  it('keeps the names where the browser refuses the layout', async () => {
+    await readKeyboard({ getLayoutMap: () => Promise.reject(new Error('no')) });
+    await readKeyboard(undefined);
+    expect(shortcutLabel('Alt+KeyM')).toBe('Alt+M');
   });
 });

@@ -88,12 +88,34 @@ export function useShortcuts(): void {
 const KEY_NAMES: Record<string, string> = {
   $mod: isMac ? '⌘' : 'Ctrl',
   Shift: isMac ? '⇧' : 'Shift',
+  Alt: isMac ? '⌥' : 'Alt',
   Period: '.',
   Comma: ',',
   Slash: '/',
   Backquote: '`',
+  BracketLeft: '[',
+  BracketRight: ']',
+  Equal: '=',
+  Minus: '-',
   Delete: 'Del',
+  Escape: 'Esc',
 };
+
+interface Keyboard {
+  readonly getLayoutMap?: () => Promise<ReadonlyMap<string, string>>;
+}
+
+/** What the user's keyboard has printed on its keys, by code; empty where the browser does not say it. */
+let printed: ReadonlyMap<string, string> = new Map();
+
+/** Asks the browser for the layout of the keyboard: a shortcut is a place on it, not a character. */
+export async function readKeyboard(
+  keyboard = (navigator as { readonly keyboard?: Keyboard }).keyboard,
+): Promise<void> {
+  // A page that is not secure, or lies in a frame, is refused; the names of an American keyboard remain.
+  printed = (await keyboard?.getLayoutMap?.().catch(() => undefined)) ?? printed;
+}
+void readKeyboard();
 
 /** Returns the keys of a command for display; null if it has none. */
 export function keysOf({ shortcut, keys }: UserCommand): string | null {
@@ -105,6 +127,6 @@ export function keysOf({ shortcut, keys }: UserCommand): string | null {
 export function shortcutLabel(shortcut: string): string {
   return shortcut
     .split('+')
-    .map((part) => KEY_NAMES[part] ?? part.replace(/^Key|^Digit/, ''))
+    .map((part) => printed.get(part)?.toUpperCase() ?? KEY_NAMES[part] ?? part.replace(/^Key|^Digit/, ''))
     .join('+');
 }

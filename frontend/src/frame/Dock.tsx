@@ -23,6 +23,7 @@ import './dock.css';
 import classes from './frame.module.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
+import { setViewMode, useViewMode } from '@/store/viewMode';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
 import { markCutTabs } from './cutTabs';
 import { panelIcon } from './panelIcons';
@@ -32,6 +33,7 @@ import { cancelSplitters } from './cancelSplitters';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
 import { cameraOf } from '@/workspace/cameraViews';
+import { giveRoom } from '@/workspace/room';
 import {
   documentOf,
   folderOf,
@@ -181,10 +183,12 @@ export function Dock({ model, width, isKept = true }: DockProps) {
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);
     followWindows(changed);
+    giveRoom(changed);
     measure();
     const { projectId } = useProjectStore.getState();
+    const { mode } = useViewMode.getState();
     keepSoon(() => {
-      if (isKept) keepLayout(width, changed);
+      if (isKept) keepLayout(width, mode, changed);
       if (!projectId) return;
       keepOpen(projectId, changed);
       keepLesson(projectId, changed);
@@ -209,6 +213,12 @@ export function Dock({ model, width, isKept = true }: DockProps) {
       />
     </div>
   );
+}
+
+/** Shows what a first project needs, or everything. Each has its own layout; documents stay open. */
+export function toggleViewMode(): void {
+  setViewMode(useViewMode.getState().mode === 'basic' ? 'full' : 'basic');
+  useTabs.setState({ model: null });
 }
 
 /** Restores the default layout. */

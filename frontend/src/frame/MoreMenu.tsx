@@ -3,6 +3,7 @@ import { IconMenu2 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
+import { useIsBasic } from '@/store/viewMode';
 import { currentLanguage, LANGUAGES, setLanguage, type Language } from '@/i18n';
 
 const ROWS = [
@@ -23,12 +24,17 @@ const ROWS = [
   'view.present',
   'view.shortcuts',
   'view.guide',
+  'view.mode',
   'view.resetLayout',
 ] as const;
+
+/** The commands that have a button in the full page. */
+const BASIC_ROWS = ['view.theme'] as const;
 
 export function MoreMenu() {
   const { t } = useTranslation('frame');
   const table = useCommandTable((state) => state.commands);
+  const isBasic = useIsBasic();
   return (
     <Menu position="bottom-end" width={260}>
       <Tooltip label={t('more')}>
@@ -39,7 +45,7 @@ export function MoreMenu() {
         </Menu.Target>
       </Tooltip>
       <Menu.Dropdown>
-        {ROWS.map((id, index) => {
+        {[...(isBasic ? BASIC_ROWS : []), ...ROWS].map((id, index) => {
           const action = id ? table[id] : undefined;
           if (!action) return <Menu.Divider key={`divider-${index}`} />;
           const Icon = action.icon;

@@ -5,22 +5,27 @@ import { saveNow } from '@/store/saving/autosave';
 import { useSavingStore, type SaveState } from '@/store/saving/store';
 import classes from './frame.module.css';
 
-const ICONS: Record<SaveState['kind'], typeof IconCloudCheck> = {
+const ICONS: Record<SaveState['kind'] | 'typing', typeof IconCloudCheck> = {
   saved: IconCloudCheck,
   dirty: IconCloudUp,
+  typing: IconCloudUp,
   saving: IconCloudUp,
   failed: IconAlertTriangle,
   conflict: IconGitMerge,
 };
+const TYPING = { kind: 'typing' } as const;
 
-/** The indicator of whether the server has saved the edits; it is always visible. */
+/** The indicator of whether the server has saved what the page shows; it is always visible. */
 export function SaveIndicator() {
   const { t } = useTranslation('frame');
-  const state = useSavingStore((saving) => saving.state);
+  const saving = useSavingStore((store) => store.state);
+  const isTyping = useSavingStore(({ unsaved }) => unsaved > 0);
+  const state = saving.kind === 'saved' && isTyping ? TYPING : saving;
   const Icon = ICONS[state.kind];
+  const isOffline = state.kind === 'failed' && state.code === 'offline';
   const reason =
     state.kind === 'failed'
-      ? state.code === 'offline'
+      ? isOffline
         ? t('save.offline')
         : t('save.failedBecause', { reason: state.reason })
       : t(`save.help.${state.kind}`);
@@ -30,13 +35,14 @@ export function SaveIndicator() {
         className={classes['save']}
         data-testid="save-state"
         data-state={state.kind}
+        data-offline={isOffline || undefined}
         aria-live="polite"
         onClick={() => void saveNow().catch(() => undefined)}
       >
         <Icon size={16} aria-hidden="true" />
         <span className={classes['saveText']}>
           {state.kind === 'failed'
-            ? state.code === 'offline'
+            ? isOffline
               ? t('save.keptOffline')
               : `${t('save.failed')}: ${state.reason}`
             : t(`save.${state.kind}`)}

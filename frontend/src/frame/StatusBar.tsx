@@ -3,11 +3,14 @@ import {
   IconAlertTriangle,
   IconCircleCheck,
   IconHourglass,
+  IconLayoutDashboard,
+  IconLayoutSidebar,
   IconPlugConnected,
   IconPlugConnectedX,
   IconWorld,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { perform } from '@/commands/registry';
 import { Hint } from '@/features/onboarding/Hint';
 import { titleOf } from '@/model/document/glance';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
@@ -19,6 +22,7 @@ import { useProjectStore } from '@/store/project';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { useMotion } from '@/store/session/motion';
 import { useSessionStore } from '@/store/session/store';
+import { useIsBasic } from '@/store/viewMode';
 import classes from './frame.module.css';
 import { showPanel } from '@/workspace/tabs';
 
@@ -33,7 +37,29 @@ export function StatusBar() {
       <Hint />
       <span className={classes['spacer']} />
       <Figures />
+      <ViewModeButton />
     </footer>
+  );
+}
+
+/** The switch between what a first project needs and everything. */
+function ViewModeButton() {
+  const { t } = useTranslation('frame');
+  const isBasic = useIsBasic();
+  const Icon = isBasic ? IconLayoutDashboard : IconLayoutSidebar;
+  return (
+    <Tooltip label={t(isBasic ? 'viewMode.moreHelp' : 'viewMode.lessHelp')} multiline maw={280}>
+      <button
+        type="button"
+        className={classes['statusButton']}
+        data-testid="view-mode"
+        data-mode={isBasic ? 'basic' : 'full'}
+        onClick={() => perform('view.mode')}
+      >
+        <Icon size={14} aria-hidden="true" />
+        {t(isBasic ? 'viewMode.more' : 'viewMode.less')}
+      </button>
+    </Tooltip>
   );
 }
 
@@ -77,7 +103,9 @@ function UniverseButton() {
 function ProblemCount() {
   const { t } = useTranslation('frame');
   const { errors, warnings } = countProblems(useProblems());
+  const isBasic = useIsBasic();
   const Icon = errors + warnings > 0 ? IconAlertTriangle : IconCircleCheck;
+  if (isBasic && errors + warnings === 0) return null;
   return (
     <button type="button" className={classes['statusButton']} onClick={() => showPanel('problems')}>
       <Icon size={14} aria-hidden="true" />

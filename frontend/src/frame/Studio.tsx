@@ -1,7 +1,7 @@
 import '@/i18n/editorTexts';
 import { Button, Center, Stack, Text, Title, VisuallyHidden } from '@mantine/core';
 import { useMediaQuery } from '@mantine/hooks';
-import { useEffect } from 'react';
+import { useEffect, useLayoutEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/commands/palette';
@@ -16,9 +16,11 @@ import { HeldBanner } from '@/features/debug/HeldBanner';
 import { PythonBanner } from '@/features/python/PythonBanner';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { ApplyDialog } from '@/features/run/ApplyDialog';
+import { OwnRobots } from '@/features/run/OwnRobots';
 import { TryDialog } from '@/features/tries/TryDialog';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
+import { ImportDialog } from '@/features/importing/ImportDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
@@ -52,12 +54,15 @@ import { followLines, renameLines } from '@/store/python/lines';
 import { followPython } from '@/store/python/sync';
 import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
+import { showsProject } from '@/store/viewMode';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
+import { followRobots } from '@/store/problems/robots';
 import { followTreeRename } from '@/store/session/values/shown';
-import { leaveInspector, registerFrameCommands } from './commands';
+import { goToInspector, leaveInspector, registerFrameCommands } from './commands';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
+import { FileDrop } from '@/features/importing/FileDrop';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
 import { openLesson } from '@/workspace/lessons';
@@ -73,6 +78,7 @@ import {
   followNames,
   followRename,
   openTab,
+  showTree,
   reopen,
   showPanel,
   useTabs,
@@ -123,6 +129,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
   const name = useProjectStore((state) => state.name);
   const presenting = usePresentation((state) => state.mode);
   const isBack = useIsBack();
+  useLayoutEffect(showsProject, []); // before the first picture, so that nothing goes away in it
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
 
@@ -143,6 +150,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       followMarks(),
       followHeat(),
       followPython(),
+      followRobots(),
       registerAxisCommands(),
       followPresent(),
       followPast(),
@@ -156,9 +164,11 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
     ];
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
+      showTree,
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
       showFile: (path) => void bringToFront({ kind: 'file', path }),
       openTopics: () => showPanel('topics'),
+      focusField: goToInspector,
       renamed: (kind, from, to) => {
         if (kind === 'file') {
           renameLines(from, to);
@@ -217,11 +227,14 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <FileDialog />
       <ExportDialog />
       <RunsDialog />
+      <FileDrop />
+      <OwnRobots />
       <ApplyDialog />
       <TryDialog />
       <UniverseDialog />
       <NewUniverse />
       <NewRobot />
+      <ImportDialog projectId={projectId} />
       <Settings />
       <Shortcuts />
       <PublishDialog />

@@ -1,16 +1,20 @@
 import {
   IconAdjustments,
+  IconArrowLeftToArc,
+  IconArrowRightToArc,
   IconBook2,
   IconCamera,
   IconCode,
   IconDeviceFloppy,
   IconDownload,
   IconExternalLink,
+  IconFileImport,
   IconGitFork,
   IconHistory,
   IconHome,
   IconKeyboard,
   IconLayout,
+  IconLayoutDashboard,
   IconLayoutSidebar,
   IconMapPin,
   IconMapPinOff,
@@ -33,9 +37,10 @@ import { openExportDialog } from '@/store/dialogs/export';
 import { openShortcuts } from '@/store/dialogs/shortcuts';
 import { openSettings } from '@/store/dialogs/settings';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
+import { openImporting } from '@/store/dialogs/importing';
 import { openNewRobot } from '@/store/dialogs/newRobot';
 import { openNewUniverse } from '@/store/dialogs/newUniverse';
-import { resetLayout } from './Dock';
+import { resetLayout, toggleViewMode } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
 import { endGuide, startGuide, useGuide } from '@/features/onboarding/guide/guide';
 import { usedCommands } from '@/features/explorer/used/commands';
@@ -44,8 +49,9 @@ import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
 import { showLesson } from '@/workspace/lessons';
+import { focusPanel } from '@/workspace/panelFocus';
 import { present, togglePresentation } from '@/workspace/presentation';
-import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
+import { openTab, showPanel, togglePanel, useTabs } from '@/workspace/tabs';
 
 /** Moves the keyboard focus to the tree that was edited last. */
 function goToTree(): void {
@@ -53,10 +59,12 @@ function goToTree(): void {
   openTab({ kind: 'tree', id: activeTree ?? mainTree });
 }
 
-/** Moves the keyboard focus to the first property of the selected block. */
-function goToInspector(): void {
+/** Moves the keyboard focus to a property of the selected block: to the field of a port, or to the first one. */
+export function goToInspector(port?: string): void {
+  if (port !== undefined && !useTabs.getState().model?.getNodeById('inspector')) togglePanel('inspector');
   showPanel('inspector');
-  setTimeout(focusInspector);
+  // A menu or a box that closes returns the focus first.
+  setTimeout(() => focusInspector(port));
 }
 
 /** Moves the focus from a field of the inspector back to its block when Escape is pressed. */
@@ -122,6 +130,14 @@ const rows: UserCommand[] = [
     run: () => openNewRobot(),
   },
   {
+    id: 'project.import',
+    group: 'project',
+    labelKey: 'frame:command.importPart',
+    icon: IconFileImport,
+    enabled: () => useProjectStore.getState().role !== 'viewer',
+    run: () => openImporting(),
+  },
+  {
     id: 'project.settings',
     group: 'project',
     labelKey: 'frame:command.settings',
@@ -156,6 +172,24 @@ const rows: UserCommand[] = [
     run: goToTree,
   },
   {
+    id: 'go.nextPanel',
+    group: 'go',
+    labelKey: 'frame:command.nextPanel',
+    icon: IconArrowRightToArc,
+    shortcut: '$mod+F6',
+    inTextFields: true,
+    run: (page) => void focusPanel(1, page),
+  },
+  {
+    id: 'go.previousPanel',
+    group: 'go',
+    labelKey: 'frame:command.previousPanel',
+    icon: IconArrowLeftToArc,
+    shortcut: '$mod+Shift+F6',
+    inTextFields: true,
+    run: (page) => void focusPanel(-1, page),
+  },
+  {
     id: 'go.inspector',
     group: 'go',
     labelKey: 'frame:command.goToInspector',
@@ -163,7 +197,7 @@ const rows: UserCommand[] = [
     shortcut: 'F4',
     inTextFields: true,
     enabled: () => useProjectStore.getState().selection.length > 0,
-    run: goToInspector,
+    run: () => goToInspector(),
   },
   {
     id: 'view.console',
@@ -255,6 +289,13 @@ const rows: UserCommand[] = [
     labelKey: 'frame:command.anotherCamera',
     icon: IconCamera,
     run: openAnotherCamera,
+  },
+  {
+    id: 'view.mode',
+    group: 'view',
+    labelKey: 'frame:command.viewMode',
+    icon: IconLayoutDashboard,
+    run: toggleViewMode,
   },
   {
     id: 'view.resetLayout',

@@ -26,6 +26,20 @@ describe('markCutTabs', () => {
     expect([cut.hasAttribute('data-cut'), whole.hasAttribute('data-cut')]).toEqual([true, false]);
   });
 
+  it('gives the icons that stand for names these names', () => {
+    const root = document.createElement('div');
+    const outer = bar(root, 200, 260);
+    const tab = document.createElement('div');
+    tab.className = 'flexlayout__tab_button';
+    tab.innerHTML = '<svg data-panel-icon></svg><span class="flexlayout__tab_button_content">Outline</span>';
+    outer.append(tab);
+    markCutTabs(root);
+    expect(tab.title).toBe('Outline');
+    Object.assign(outer.firstElementChild as object, { clientWidth: 300 });
+    markCutTabs(root);
+    expect(tab.title).toBe('');
+  });
+
   it('removes the mark when there is room again', () => {
     const root = document.createElement('div');
     const outer = bar(root, 200, 260);

@@ -1,5 +1,15 @@
 const BARS = '.flexlayout__tabset_tabbar_outer';
 const INNER = '.flexlayout__tabset_tabbar_inner';
+const TAB = '.flexlayout__tab_button';
+const NAME = '.flexlayout__tab_button_content';
+
+/** An icon that stands for a name shows it to the pointer. */
+function nameIcons(bar: HTMLElement): void {
+  for (const icon of bar.querySelectorAll('[data-panel-icon]')) {
+    const tab = icon.closest<HTMLElement>(TAB);
+    if (tab) tab.title = bar.hasAttribute('data-cut') ? (tab.querySelector(NAME)?.textContent ?? '') : '';
+  }
+}
 
 /**
  * Marks each bar of tabs that has no room for the names of its tabs; a style sheet then shows icons.
@@ -14,4 +24,5 @@ export function markCutTabs(root: ParentNode): void {
     return inner !== null && inner.scrollWidth > inner.clientWidth;
   });
   for (const bar of cut) bar.setAttribute('data-cut', '');
+  for (const bar of bars) nameIcons(bar);
 }

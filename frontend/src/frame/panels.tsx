@@ -15,6 +15,7 @@ import { TimelinePanel } from '@/features/timeline/TimelinePanel';
 import { TopicsPanel } from '@/features/topics/TopicsPanel';
 import { CameraPanel } from '@/features/viewer/pictures/CameraPanel';
 import { VideoPanel } from '@/features/viewer/pictures/VideoPanel';
+import { useProjectStore } from '@/store/project';
 import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import { lazyPart } from '@/ui/parts';
@@ -118,6 +119,8 @@ function Document({ node }: { readonly node: TabNode }) {
 
 /** The editor of a file: a 3D editor beside the text for universes and robots, otherwise a text editor. */
 function FileTab({ path }: { readonly path: string }) {
+  const isLarge = useProjectStore((state) => state.files[path]?.kind === 'large');
+  if (isLarge) return <CodeTab path={path} />; // it loads the file
   if (ROBOT_FILE.test(path)) return <RobotTab key={path} path={path} />;
   return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;
 }

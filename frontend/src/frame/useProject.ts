@@ -1,5 +1,7 @@
+import { useQueryClient } from '@tanstack/react-query';
 import { useEffect, useState } from 'react';
 import { api } from '@/api/client';
+import { ME } from '@/features/accounts/useMe';
 import { watchPython } from '@/store/problems/lint';
 import { useProjectStore } from '@/store/project';
 import { loadOffered } from '@/store/project/offered';
@@ -17,6 +19,7 @@ type Opening =
 /** Opens a project: loads it, restores unsaved edits, starts autosaving, and joins its running session. */
 export function useProject(projectId: string): Opening {
   const [opening, setOpening] = useState<Opening>({ kind: 'loading' });
+  const queries = useQueryClient();
   useEffect(() => {
     const loading = new AbortController();
     let unfollow: (() => void) | null = null;
@@ -27,7 +30,12 @@ export function useProject(projectId: string): Opening {
         startAutosave();
         unwatch = watchPython();
         restoreDraft(detail);
-        setOpening({ kind: 'open', joined: reattach(projectId) });
+        // A guest has no sessions.
+        const joined = queries
+          .fetchQuery(ME)
+          .then(({ role }) => (role === 'guest' || loading.signal.aborted ? undefined : reattach(projectId)))
+          .catch(() => undefined); // without an answer the page opens without a session, as after its end
+        setOpening({ kind: 'open', joined });
         unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
         void loadOffered();
       },
@@ -42,6 +50,6 @@ export function useProject(projectId: string): Opening {
       stopAutosave();
       leave();
     };
-  }, [projectId]);
+  }, [projectId, queries]);
   return opening;
 }

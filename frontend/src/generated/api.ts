@@ -487,7 +487,11 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Checks the project as it would be with these unsaved files. */
+        /**
+         * @description Checks the project as it would be with these unsaved files.
+         *
+         *     Robots with macros are looked at in a separate process, which is the user's tools on a server.
+         */
         post: operations["check_project"];
         delete?: never;
         options?: never;
@@ -820,6 +824,44 @@ export interface paths {
         get: operations["download_file"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/imports": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * @description Imports a robot, a world or a map from a file or zip, which is the body, as one revision.
+         *
+         *     A robot is driven 1 m and turned by 360° first. If the client leaves meanwhile, nothing is written.
+         */
+        post: operations["import_part"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/imports/inspect": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Lists the robots, worlds and maps in a file or zip, which is the body. Nothing is executed. */
+        post: operations["inspect_import"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1211,7 +1253,8 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /** @description Returns the turn of the user's tests of the project that wait for a place, if any do. */
+        get: operations["get_test_turn"];
         put?: never;
         /**
          * @description Runs all behaviour tests of the project as it would be with these unsaved files.
@@ -1219,7 +1262,13 @@ export interface paths {
          *     Leaves that are `real` run their Python in the user's tools: a container on a server for a team.
          */
         post: operations["test_with_python"];
-        delete?: never;
+        /**
+         * @description Ends the user's tests of the project that wait or run.
+         *
+         *     The request that has started them is answered 409, `tests_ended`. If there are none, the answer is
+         *     404, `no_tests`.
+         */
+        delete: operations["end_test_with_python"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1307,10 +1356,11 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * @description Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, or BT.CPP XML.
+         * @description Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, BT.CPP XML or py_trees.
          *
          *     The body is the file, or a form with the file. A body may be as large as the user's quota permits; a
-         *     form may be as large as any other request.
+         *     form may be as large as any other request. A Python file that builds a tree with py_trees is run where
+         *     the user's robots are read, with limits, to see the tree.
          */
         post: operations["import_project"];
         delete?: never;
@@ -1329,7 +1379,8 @@ export interface paths {
         /**
          * @description Lists the trees that the user's own projects, and those shared with the user, offer to others.
          *
-         *     The projects are in the order of their last change, without archived ones.
+         *     The projects are in the order of their last change, without archived ones, and those whose offered
+         *     trees use more than 256 KB.
          */
         get: operations["list_offers"];
         put?: never;
@@ -1424,6 +1475,23 @@ export interface paths {
          *     BehaviorTree.CPP.
          */
         post: operations["open_log"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the user's sessions that wait, start or run, so that one may be ended. */
+        get: operations["list_sessions"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -1556,6 +1624,11 @@ export interface components {
             robot: string | null;
             /** @description The revision of the project; a recording names it. */
             revision: number;
+        };
+        /** @description An argument of macros; one without a default must be given. */
+        Argument: {
+            name: string;
+            default: string | null;
         };
         /** @description A run that is to be played. */
         AskReplayRequest: {
@@ -1819,6 +1892,8 @@ export interface components {
             waits_for: components["schemas"]["WaitsForEnum"] | components["schemas"]["BlankEnum"];
             /** @description Why it failed, a line for each problem; else empty. */
             error: string;
+            /** @description A line for each part of the project that does not run, such as a launch node; else empty. */
+            notes: string;
             /** @description Changes when it is begun again; outcomes may have gone. */
             attempt: number;
             /**
@@ -1861,7 +1936,7 @@ export interface components {
         };
         /** @enum {string} */
         FieldDirectionEnum: "input" | "output";
-        /** @description A current file; `content` is null if the file is not text. */
+        /** @description A current file; `content` is null if the file is not text, or is left out. */
         File: {
             path: string;
             revision: number;
@@ -1870,6 +1945,8 @@ export interface components {
             /** Format: date-time */
             updated_at: string;
             content: string | null;
+            /** @description The file is large: its content must be downloaded. Trees and settings are never left out. */
+            left_out: boolean;
         };
         /** @description New content, a new path, both, or the deletion of one file. */
         FileChangeRequest: {
@@ -1937,6 +2014,60 @@ export interface components {
         GroupList: {
             items: components["schemas"]["Group"][];
         };
+        /** @description A robot, a world or a map in an upload. */
+        ImportItem: {
+            kind: components["schemas"]["ImportItemKindEnum"];
+            source: components["schemas"]["SourceEnum"];
+            /** @description Its file, for `main`. */
+            path: string;
+            /** @description A name for it that is free in the project. */
+            name: string;
+            /** @description No other file of the upload includes it. */
+            is_main: boolean;
+            arguments: components["schemas"]["Argument"][];
+        };
+        /** @enum {string} */
+        ImportItemKindEnum: "robot" | "universe";
+        /** @description Why nothing was imported. */
+        ImportProblem: {
+            type: string;
+            title: string;
+            status: number;
+            /** @description Stable; programs go by it. */
+            code: string;
+            /** @description One sentence for the user. */
+            detail: string;
+            /** @description What to do now; may be empty. */
+            hint: string;
+            /** @description The part of the request that is wrong. */
+            field?: string;
+            diagnostics?: components["schemas"]["Refusal"][];
+            items?: components["schemas"]["ImportItem"][];
+        };
+        /** @description The lines about parts that an import took, assumed and left out. */
+        ImportReport: {
+            taken: components["schemas"]["ReportLine"][];
+            assumed: components["schemas"]["ReportLine"][];
+            left_out: components["schemas"]["ReportLine"][];
+        };
+        /** @description An imported robot or universe, which is one revision of the project. */
+        ImportedPart: {
+            revision: number;
+            previous_revision: number;
+            name: string;
+            /** @description Its robot.yaml, or the universe. */
+            path: string;
+            /** @description All files that were written. */
+            paths: string[];
+            /** @description Files that it replaced. */
+            removed: string[];
+            report: components["schemas"]["ImportReport"];
+            test_drive: components["schemas"]["TestDrive"] | null;
+            /** @description `simplify` would bring meshes that were left out. */
+            can_simplify: boolean;
+            /** @description Things and people of a universe. */
+            things: number | null;
+        };
         /** @description An imported project. */
         ImportedProject: {
             /** Format: uuid */
@@ -1973,11 +2104,18 @@ export interface components {
             checked: boolean;
             /** @description null: the file names its universe, or its actions ask for none. */
             proposal: components["schemas"]["Proposal"] | null;
+            /** @description Why a tree of py_trees is one block; empty if it is a tree of blocks. */
+            one_block: string;
         };
         /** @description The source of an action. */
         InspectActionRequest: {
             source: string;
             filename: string;
+        };
+        /** @description The content of an upload; the most likely items first. */
+        Inspected: {
+            items: components["schemas"]["ImportItem"][];
+            left_out: components["schemas"]["ReportLine"][];
         };
         /** @description The fields of an interface; a message comes before its own fields. */
         Interface: {
@@ -2051,6 +2189,8 @@ export interface components {
             email: string;
             role: components["schemas"]["AccountRole"];
             version: string;
+            /** @description Whether the Python of every user can read and change all projects of this server. */
+            users_run_as_server: boolean;
         };
         /** @description The difference of a measure. */
         MeasureDifference: {
@@ -2207,6 +2347,36 @@ export interface components {
         OverlayFileRequest: {
             path: string;
             content: string;
+        };
+        /** @description A session of the user that waits, starts or runs. */
+        OwnSession: {
+            /** Format: uuid */
+            id: string;
+            kind: components["schemas"]["SessionKindEnum"];
+            /**
+             * Format: uuid
+             * @description Null for an attached session.
+             */
+            project_id: string | null;
+            /** @description The address of the program that it follows; else empty. */
+            target: string;
+            state: components["schemas"]["SessionStateEnum"];
+            control_url: string;
+            stream_url: string;
+            /** @description Why it failed; else empty. */
+            error: string;
+            /** @description Place in the queue, from 1, while it waits for one on the server. */
+            position: number | null;
+            /** @description Whether it waits until another session of its user ends, not until the server has room. */
+            waits_for_own: boolean;
+            /** Format: date-time */
+            created_at: string;
+            /** @description Empty for an attached session. */
+            project_name: string;
+        };
+        /** @description The sessions of the user that wait, start or run, the oldest first. */
+        OwnSessionList: {
+            items: components["schemas"]["OwnSession"][];
         };
         /** @description A file of the package. */
         PackageFile: {
@@ -2372,6 +2542,13 @@ export interface components {
             /** @description The diagram before the text was edited. */
             diagram: string;
         };
+        /** @description A reason why it cannot be imported. */
+        Refusal: {
+            file: string;
+            line: number;
+            message: string;
+            hint: string;
+        };
         /** @description A run that is run again and recorded. */
         Replay: {
             /** Format: uuid */
@@ -2392,6 +2569,12 @@ export interface components {
             actions: components["schemas"]["Action"][];
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
+        };
+        /** @description A line of a report, with its place in the upload if it has one. */
+        ReportLine: {
+            file: string;
+            line: number | null;
+            text: string;
         };
         /** @description The files to restore; without any, all files are restored. */
         RestoreRevisionRequest: {
@@ -2489,6 +2672,8 @@ export interface components {
             error: string;
             /** @description Place in the queue, from 1, while it waits for one on the server. */
             position: number | null;
+            /** @description Whether it waits until another session of its user ends, not until the server has room. */
+            waits_for_own: boolean;
             /** Format: date-time */
             created_at: string;
         };
@@ -2555,6 +2740,8 @@ export interface components {
                 [key: string]: number;
             };
         };
+        /** @enum {string} */
+        SourceEnum: "urdf" | "xacro" | "sdf" | "map";
         /** @description A source with the name of its file. */
         SourceRequest: {
             source: string;
@@ -2603,6 +2790,20 @@ export interface components {
         TemplateList: {
             items: components["schemas"]["Template"][];
         };
+        /** @description The motion of an imported robot at a command of 1 m and of 360°. */
+        TestDrive: {
+            /** Format: double */
+            way_m: number;
+            /**
+             * Format: double
+             * @description The way to the side.
+             */
+            aside_m: number;
+            /** Format: double */
+            turn_deg: number;
+            /** @description It moved as commanded, within 5 cm and 10°. */
+            fits: boolean;
+        };
         /** @description The reason for which a behaviour test failed. */
         TestFailure: {
             message: string;
@@ -2650,6 +2851,13 @@ export interface components {
             tests: components["schemas"]["TestOutcome"][];
             problems: components["schemas"]["Diagnostic"][];
             coverage: components["schemas"]["Coverage"];
+        };
+        /** @description The turn of tests with Python that wait for a place. */
+        TestTurn: {
+            /** @description Place in the queue, from 1, while tests wait; null if none wait. */
+            position: number | null;
+            /** @description Whether they wait until other tests of their user end, not until the server has room. */
+            waits_for_own: boolean;
         };
         /** @description The version of the file on the server. */
         Theirs: {
@@ -4664,6 +4872,121 @@ export interface operations {
             };
         };
     };
+    import_part: {
+        parameters: {
+            query: {
+                /** @description An argument of macros, `name:=value`; may be repeated. */
+                arg?: string[];
+                /** @description The file's name. */
+                filename: string;
+                kind: "robot" | "universe";
+                /** @description Its file; not needed if only one can be meant. */
+                main?: string;
+                /** @description Its name in the project. */
+                name?: string;
+                /** @description Replace the robot or universe of this name. */
+                replace?: boolean;
+                /** @description Make meshes of too many triangles smaller. */
+                simplify?: boolean;
+                /** @description The project runs with it from now on. */
+                use?: boolean;
+            };
+            header?: {
+                /**
+                 * @description Makes the request safe to repeat: one effect, the first answer.
+                 * @example create-patrol-1
+                 */
+                "Idempotency-Key"?: string;
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/octet-stream": Blob;
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedPart"];
+                };
+            };
+            /** @description It cannot be imported, or not clear what. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ImportProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    inspect_import: {
+        parameters: {
+            query: {
+                /** @description The file's name. */
+                filename: string;
+            };
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/octet-stream": Blob;
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Inspected"];
+                };
+            };
+            /** @description It cannot be imported, or not clear what. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ImportProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_models: {
         parameters: {
             query?: never;
@@ -5603,6 +5926,37 @@ export interface operations {
             };
         };
     };
+    get_test_turn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestTurn"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     test_with_python: {
         parameters: {
             query?: never;
@@ -5635,6 +5989,36 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["CheckProblem"];
                 };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    end_test_with_python: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A problem document. */
             default: {
@@ -5798,6 +6182,10 @@ export interface operations {
             query?: {
                 /** @description The file's name, where the body is the file itself. */
                 filename?: string;
+                /** @description The main tree, or its file; in Python its name. */
+                main?: string;
+                /** @description The order of children on JdeRobot's canvas, in place of the project's; `ask` refuses the project's where only the other one reaches all branches. */
+                order?: "ask" | "bottom-to-top" | "top-to-bottom";
                 /** @description Escape bare & and < in attributes of XML. */
                 repair?: boolean;
             };
@@ -6020,6 +6408,34 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["MyRun"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_sessions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnSessionList"];
                 };
             };
             /** @description A problem document. */

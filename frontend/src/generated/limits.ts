@@ -20,6 +20,12 @@ export const LIMITS = {
   files_per_project: 5000,
   /** Bytes of one file of a folder or zip that is opened from the disk. */
   archived_file_bytes: 67108864,
+  /** Bytes of the directory of a zip that is opened. */
+  archive_directory_bytes: 4194304,
+  /** Entries of a zip that is opened, folders and files of tools included. */
+  archive_entries: 20000,
+  /** Bytes of the file or zip of which a robot, a world or a map is imported into a project. */
+  import_upload_bytes: 268435456,
   /** Bytes of the source of one action. */
   action_bytes: 2097152,
   /** Bytes of one XML file. */

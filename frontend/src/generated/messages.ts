@@ -5,6 +5,8 @@ export const PROTOCOL = "bt-studio.v1";
 
 export type AttachState = "connecting" | "following" | "silent";
 
+export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
+
 export type ResultName = "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
 
 export type BreakpointMoment = "before" | "after" | "returns" | "halted";
@@ -35,9 +37,9 @@ export type CallPart = "callback" | "tick";
 
 export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
 
-export type MismatchCode = "type" | "reliability" | "durability" | "qos";
+export type LaunchState = "running" | "ended" | "failed";
 
-export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
+export type MismatchCode = "type" | "reliability" | "durability" | "qos" | "unpublished" | "elsewhere" | "unserved";
 
 export type PortEffect = "next_tick" | "next_start";
 
@@ -50,8 +52,6 @@ export type LogSource = "action" | "world" | "manager" | "launch";
 export type LogLevel = "debug" | "info" | "warning" | "error";
 
 export type Role = "driver" | "viewer";
-
-export type LaunchState = "running" | "ended" | "failed";
 
 export type FaultKind = "exception" | "process" | "timeout" | "load";
 
@@ -260,6 +260,20 @@ export interface Held {
   statuses: [number, ResultName][];
   hook: number;
   outside: boolean;
+}
+
+/**
+ * The program is held at a line of Python within a tick, of which this is known so far.
+ *
+ * `path` has the uids from the root to the node `uid`, whose code is held. `statuses` are those of all nodes
+ * that are not IDLE. It holds until the state is not `held` any more, or until the next event `tick`, `held`
+ * or `held_in_python`.
+ */
+export interface HeldInPython {
+  uid: number;
+  path: number[];
+  tick: number;
+  statuses: [number, NodeStatus][];
 }
 
 /**
@@ -611,7 +625,8 @@ export interface Evaluate {
  * The evaluation was read and checked, and its first run begins.
  *
  * `seed` is the first, and `wanted` the largest number of runs. `plan` has outlines of the world for its
- * report, in m. `duration_s` is how long a run takes at most, in simulated s.
+ * report, in m. `duration_s` is how long a run takes at most, in simulated s. `notes` has a line for each
+ * part of the project that does not run, such as a launch node.
  */
 export interface EvaluationStarted {
   job: string;
@@ -621,6 +636,7 @@ export interface EvaluationStarted {
   sequential: boolean;
   duration_s: number;
   plan: Record<string, unknown>;
+  notes: string;
 }
 
 /**
@@ -1007,22 +1023,45 @@ export interface TypeDescription {
 }
 
 /**
- * Two ends of a topic do not match, so no message arrives; reported once while both exist.
+ * Two ends of a topic do not match, or one is missing: no message arrives. Reported once while it is so.
  *
  * `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
- * of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
- * says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
+ * of service; or `nobody`, if nobody publishes the topic (then `publisher` is empty), or serves the service
+ * or action whose client `subscriber` is. `code` names it exactly, and `values` holds what `message` tells
+ * except the names. `hint` says how to fix it. With `resolved`, what was reported is so no more.
  */
 export interface TopicMismatch {
   topic: string;
   publisher: string;
   subscriber: string;
-  reason: "qos" | "type";
+  reason: "nobody" | "qos" | "type";
   message: string;
   hint: string;
   code: MismatchCode;
   values: Record<string, string>;
   resolved: boolean;
+}
+
+/**
+ * A process of the project's launch files; `file` and `line` are its place there.
+ *
+ * `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
+ */
+export interface LaunchNode {
+  id: string;
+  name: string;
+  package: string;
+  executable: string;
+  file: string;
+  line: number;
+  state: LaunchState;
+  restarts: number;
+  end: string;
+}
+
+/** All launch nodes of the application, sent when one of them changes. */
+export interface LaunchNodes {
+  nodes: LaunchNode[];
 }
 
 /** One node of the running tree. `node_id` is its id in the diagram, `tree_id` the id of that diagram. */
@@ -1046,7 +1085,7 @@ export interface Tree {
  * The changes of one tick, or of a halt after it; a halt has the number `n` of that tick.
  *
  * `past` holds the nodes that are idle again, with their last status in the tick; it replaces the `past` of
- * the previous message.
+ * the previous message. `forced` holds the uids of the nodes whose result in the tick was forced.
  */
 export interface Tick {
   n: number;
@@ -1054,6 +1093,7 @@ export interface Tick {
   flashed: [number, NodeStatus][];
   duration_ms: number;
   past: [number, NodeStatus][];
+  forced: number[];
 }
 
 /** One changed entry; a large value is sent as a preview (text), and `preview` is then true. */
@@ -1138,6 +1178,17 @@ export interface Progress {
   message: string;
 }
 
+/**
+ * The session waits for a place on the server, which sends this in place of the manager.
+ *
+ * `before` is the number of robots that get a place before this one, null as soon as it has one; with
+ * `is_own` it waits until another robot of the same user ends.
+ */
+export interface Queued {
+  before: number | null;
+  is_own: boolean;
+}
+
 /** One line of output. */
 export interface Log {
   source: LogSource;
@@ -1183,28 +1234,7 @@ export interface Sim {
   distance_m: number;
   pose: [number, number, number];
   camera_share: number;
-}
-
-/**
- * A process of the project's launch files; `file` and `line` are its place there.
- *
- * `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
- */
-export interface LaunchNode {
-  id: string;
-  name: string;
-  package: string;
-  executable: string;
-  file: string;
-  line: number;
-  state: LaunchState;
-  restarts: number;
-  end: string;
-}
-
-/** All launch nodes of the application, sent when one of them changes. */
-export interface LaunchNodes {
-  nodes: LaunchNode[];
+  hits: number;
 }
 
 /** The full state for a client that joins late; later events change it. */
@@ -1234,6 +1264,7 @@ export interface Snapshot {
   live_runs: string[];
   runs_by_hand: Record<string, number>;
   held: Held | null;
+  held_in_python: HeldInPython | null;
   forced: Forced | null;
   attached: Attached | null;
   attached_tree: AttachedTree | null;
@@ -1469,6 +1500,7 @@ export interface Events {
   "state-changed": StateChanged;
   snapshot: Snapshot;
   progress: Progress;
+  queued: Queued;
   tree: Tree;
   tick: Tick;
   blackboard: Blackboard;
@@ -1491,6 +1523,7 @@ export interface Events {
   going_back: GoingBack;
   differs: Differs;
   held: Held;
+  held_in_python: HeldInPython;
   released: Released;
   forced: Forced;
   attached: Attached;

@@ -14,7 +14,7 @@ const refusal = (code: string) =>
 
 afterEach(() => i18next.changeLanguage('en'));
 
-it('says what the executor says in the language of the page', async () => {
+it('says what an evaluation says in the language of the page', async () => {
   expect(reasonText(t, 'reach door: the time is over')).toBe('reach door: the time is over');
   await i18next.changeLanguage('es');
   expect(reasonText(t, 'reach door: the time is over')).toBe('llegar a door: se acabó el tiempo');
@@ -27,6 +27,13 @@ it('has a Spanish text for each sentence that has words of its own', async () =>
   await i18next.changeLanguage('es');
   for (const { sentence } of sentences.filter((each) => !each.sentence.startsWith('python ')))
     expect(reasonText(t, sentence)).not.toBe(sentence);
+});
+
+it('says in words how a process ended', () => {
+  for (const { sentence } of sentences) expect(reasonText(t, sentence)).not.toMatch(/SIG[A-Z]/);
+  expect(reasonText(t, 'the process of the run ended with SIGSEGV in actions/Go.py:12')).toBe(
+    'the process of the run crashed in actions/Go.py:12',
+  );
 });
 
 it('says why the server refused, and otherwise what it says with its hint', async () => {

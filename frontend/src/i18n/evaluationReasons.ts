@@ -31,9 +31,11 @@ export function refusalText(t: T, error: Error): string {
 export function reasonText(t: T, sentence: string): string {
   const found = reasonIn(sentence);
   if (!found) return sentence;
-  const { item } = found.values;
+  const { item, signal } = found.values;
   const values = item === undefined ? found.values : { item: reasonText(t, item) };
-  return t(`why.${found.key}`, values);
+  // The report names the signal.
+  const how = signal === 'SIGKILL' ? t('why.killed') : t('why.crashed');
+  return t(`why.${found.key}`, { ...values, how });
 }
 
 /** Returns the lines of an evaluation's error, each as `reasonText`. */

@@ -9,7 +9,7 @@ import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
-/** The effect of a fix that is not a change of the tree: it creates a file. */
+/** The effect of a fix that is not a change of the tree: it creates or changes a file. */
 export type Making =
   | {
       readonly makes: 'action';
@@ -18,7 +18,19 @@ export type Making =
       /** The kind of a node with children; absent for an action. */
       readonly kind?: 'Control' | 'Decorator';
     }
-  | { readonly makes: 'tree'; readonly name: string };
+  | { readonly makes: 'tree'; readonly name: string }
+  /** Another topic in the text of an action; `line` is that of the call that names it. */
+  | {
+      readonly makes: 'topic';
+      readonly path: string;
+      readonly line: number | null;
+      readonly said: string;
+      readonly other: string;
+    }
+  /** Nothing but the focus in the field of a port: the user types the value. */
+  | { readonly makes: 'typing'; readonly node: NodeId; readonly port: string }
+  /** Another name of a sensor's topic, at the first robot of a universe. */
+  | { readonly makes: 'remap'; readonly path: string; readonly sensor: string; readonly topic: string };
 
 /** A fix of a finding; its texts are `editor:fix.<key>` with `values`. */
 export interface Fix {
@@ -89,6 +101,8 @@ const keyOf = (text: string, port: string): string =>
 const keyFix = (id: NodeId, port: string, text: string): Fix =>
   fix('use-key', setPort(id, port, keyOf(text, port)), { text: keyOf(text, port) });
 
+const typeFix = (node: NodeId, port: string): Fix => fix('type-value', { makes: 'typing', node, port });
+
 function unknownPortFixes(id: NodeId, node: DiagramNode, port: string, ports: readonly PortSpec[]): Fix[] {
   const free = ports.map((each) => each.name).filter((name) => node.ports?.[name] === undefined);
   const renames = similarNames(port, free).map((name) =>
@@ -130,7 +144,7 @@ function valueFixes(id: NodeId, port: PortSpec, text: string): Fix[] {
   }
   if (port.default !== null)
     fixes.push(fix('reset-port', setPort(id, port.name, null), { text: port.default }));
-  return [...fixes, keyFix(id, port.name, text)];
+  return [...fixes, typeFix(id, port.name), keyFix(id, port.name, text)];
 }
 
 function portFixes(
@@ -146,7 +160,12 @@ function portFixes(
   switch (problem.kind) {
     case 'missing-port':
     case 'missing-tree-port':
+      return [typeFix(id, port), keyFix(id, port, '')];
+    case 'missing-key':
       return [keyFix(id, port, '')];
+    case 'out-of-range':
+    case 'bad-ros-name':
+      return [typeFix(id, port)];
     case 'unknown-port':
       return unknownPortFixes(id, node, port, ports);
     case 'bad-port-name':
@@ -217,4 +236,23 @@ export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabul
   return resultFixes(problem.code, diagram, id, problem.port).map((each) =>
     fix(each.key, each.does, each.values),
   );
+}
+
+/** Returns the fixes of a finding about a file: those of a topic that nobody publishes (BT0623). */
+export function fileFixes(
+  code: string,
+  path: string,
+  line: number | null,
+  values: Readonly<Record<string, unknown>> = {},
+): Fix[] {
+  if (code !== 'BT0623') return [];
+  const { topic, sensor, other, said, universe } = values;
+  const texts = [topic, sensor, other, said].filter((each) => typeof each === 'string');
+  const [named = '', part = '', offered = '', written = ''] = texts;
+  if (texts.length < 4) return [];
+  const topicFix = { makes: 'topic', path, line, said: written, other: offered } as const;
+  const use = fix('use-topic', topicFix, { other: offered });
+  if (typeof universe !== 'string' || universe === '') return [use];
+  const remap = { makes: 'remap', path: universe, sensor: part, topic: named } as const;
+  return [use, fix('remap-topic', remap, { sensor: part, topic: named })];
 }

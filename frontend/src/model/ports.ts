@@ -30,7 +30,7 @@ export type PortText =
   | { readonly kind: 'same-name' }
   | { readonly kind: 'broken'; readonly reason: 'unclosed' | 'empty-key' | 'bad-key' };
 
-const OUTER_BLANKS = /^[ \t\r\n]+|[ \t\r\n]+$/g;
+const OUTER_BLANKS = /^ +| +$/g;
 
 /** Returns the key in the braces of `{key}`, or `=` for `{=}`; null for a literal. */
 export function pointerOf(text: string): string | null {
@@ -45,13 +45,13 @@ const count = (text: string, character: string): number => text.split(character)
 /** Parses a literal, `{key}`, `{=}` or `{@global_key}`, as in BT.CPP. */
 export function readPortText(text: string): PortText {
   const stripped = text.replace(OUTER_BLANKS, '');
-  if (stripped === '') return { kind: 'empty' };
+  if (stripped.trim() === '') return { kind: 'empty' };
   if (stripped === '{}') return { kind: 'broken', reason: 'empty-key' };
   const looksLikeKey = stripped.startsWith('{') || stripped.endsWith('}');
-  if (looksLikeKey && count(stripped, '{') !== count(stripped, '}')) {
+  const inner = pointerOf(text);
+  if (inner === null && looksLikeKey && count(stripped, '{') !== count(stripped, '}')) {
     return { kind: 'broken', reason: 'unclosed' };
   }
-  const inner = pointerOf(text);
   if (inner === null) return { kind: 'literal', text };
   if (inner === '=') return { kind: 'same-name' };
   if (/[{}]|.@/s.test(inner)) return { kind: 'broken', reason: 'bad-key' };

@@ -36,7 +36,7 @@ function checkWaiting(diagram: Diagram, node: DiagramNode): Problem[] {
 
 function checkTree(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
   const checkCalls = callCheck(diagram.id, vocabulary);
-  const checkEntries = entryCheck();
+  const checkEntries = entryCheck(diagram, vocabulary);
   return (diagram.root === null ? [] : subtreeOf(diagram, diagram.root)).flatMap((id) => {
     const node = diagram.nodes[id];
     if (!node) return [];

@@ -2,6 +2,18 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { DiagramError, parseDiagram, serializeDiagram } from './serialize';
 
+interface Repair {
+  readonly given: {
+    readonly root: string;
+    readonly drafts: string[];
+    readonly nodes: Record<string, string[]>;
+  };
+  readonly root: string | null;
+  readonly drafts: string[];
+  readonly children: Record<string, string[]>;
+}
+
+const repairs = JSON.parse(readFileSync('../tests/shared/repairs.json', 'utf8')) as Repair[];
 const base = {
   format: 'bt-studio/diagram',
   version: 1,
@@ -39,8 +51,22 @@ describe('parseDiagram', () => {
     });
     expect(diagram.nodes['r']?.children).toEqual(['a']);
     expect(diagram.nodes['a']?.children).toEqual([]);
-    expect(diagram.drafts).toEqual(['lost', 'x']);
+    expect(diagram.drafts).toEqual(['x', 'lost']);
   });
+
+  it.each(repairs.map((each) => [JSON.stringify(each), each] as const))(
+    'repairs %s as the translator does',
+    (_what, { given, root, drafts, children }) => {
+      const nodes = Object.fromEntries(
+        Object.entries(given.nodes).map(([id, below]) => [id, { type: 'Sequence', children: below }]),
+      );
+      const diagram = parseDiagram({ ...base, ...given, nodes });
+      expect(diagram.root).toBe(root);
+      expect(diagram.drafts).toEqual(drafts);
+      const found = Object.entries(diagram.nodes).map(([id, node]) => [id, node.children ?? []]);
+      expect(Object.fromEntries(found)).toEqual(children);
+    },
+  );
 
   it('keeps unknown keys', () => {
     const text = serializeDiagram(

@@ -58,42 +58,67 @@ function parseNode(id: NodeId, value: unknown): DiagramNode {
   };
 }
 
-/**
- * Repairs the nodes into a forest: dangling links and second parents are dropped, and unconnected pieces
- * become drafts, so that nothing is lost.
- */
-function repair(root: NodeId | null, drafts: NodeId[], nodes: Record<NodeId, DiagramNode>) {
+type Nodes = Record<NodeId, DiagramNode>;
+
+/** Removes children that do not exist, and second parents. */
+function link(nodes: Nodes): void {
   const seen = new Set<NodeId>();
-  const visit = (top: NodeId): void => {
-    const open = [top];
-    seen.add(top);
-    for (let id = open.pop(); id !== undefined; id = open.pop()) {
-      const node = nodes[id];
-      if (!node?.children) continue;
-      const children = node.children.filter((child) => {
-        if (seen.has(child) || !nodes[child]) return false;
-        seen.add(child);
-        return true;
-      });
-      if (children.length !== node.children.length) nodes[id] = { ...node, children };
-      open.push(...children);
-    }
-  };
+  for (const [id, node] of Object.entries(nodes)) {
+    const children = node.children?.filter((child) => {
+      if (!nodes[child] || seen.has(child) || child === id) return false;
+      seen.add(child);
+      return true;
+    });
+    if (children && children.length !== node.children?.length) nodes[id] = { ...node, children };
+  }
+}
+
+const parentsIn = (nodes: Nodes): Map<NodeId, NodeId> =>
+  new Map(
+    Object.entries(nodes).flatMap(([id, { children }]) =>
+      (children ?? []).map((child) => [child, id] as const),
+    ),
+  );
+
+function cut(nodes: Nodes, parent: NodeId | undefined, child: NodeId): void {
+  const node = nodes[parent ?? ''];
+  if (parent === undefined || !node) return;
+  nodes[parent] = { ...node, children: (node.children ?? []).filter((each) => each !== child) };
+}
+
+/** Adds a node and all below it to the nodes that were reached; returns whether it is below itself. */
+function reach(nodes: Nodes, top: NodeId, reached: Set<NodeId>): boolean {
+  const open = [...(nodes[top]?.children ?? [])];
+  reached.add(top);
+  for (let id = open.pop(); id !== undefined; id = open.pop()) {
+    if (id === top) return true;
+    if (reached.has(id)) continue;
+    reached.add(id);
+    open.push(...(nodes[id]?.children ?? []));
+  }
+  return false;
+}
+
+/**
+ * Repairs the nodes into a forest, like `translator/diagram.py`: dangling links and second parents are
+ * dropped, rings are cut above their first node, and unconnected pieces become drafts, so that nothing is
+ * lost.
+ */
+function repair(root: NodeId | null, drafts: NodeId[], nodes: Nodes) {
+  link(nodes);
+  const parents = parentsIn(nodes);
   const top = root !== null && nodes[root] ? root : null;
-  if (top !== null) visit(top);
-  const kept: NodeId[] = [];
-  const adopt = (id: NodeId): void => {
-    if (seen.has(id) || !nodes[id]) return;
-    kept.push(id);
-    visit(id);
-  };
-  drafts.forEach(adopt);
-  const children = new Set(Object.values(nodes).flatMap((node) => node.children ?? []));
-  Object.keys(nodes)
-    .filter((id) => !children.has(id))
-    .forEach(adopt);
-  Object.keys(nodes).forEach(adopt);
-  return { root: top, drafts: kept, nodes };
+  const listed = [...new Set(drafts)].filter((id) => nodes[id] && !parents.has(id) && id !== top);
+  if (top !== null) cut(nodes, parents.get(top), top);
+  const reached = new Set<NodeId>();
+  for (const id of top === null ? listed : [top, ...listed]) reach(nodes, id, reached);
+  for (const id of Object.keys(nodes)) {
+    if (!reached.has(id) && reach(nodes, id, reached)) cut(nodes, parents.get(id), id);
+  }
+  const left = parentsIn(nodes);
+  const known = new Set([top, ...listed]);
+  const lost = Object.keys(nodes).filter((id) => !left.has(id) && !known.has(id));
+  return { root: top, drafts: [...listed, ...lost], nodes };
 }
 
 /** Reads and repairs a diagram, from text or from parsed JSON. */

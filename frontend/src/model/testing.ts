@@ -38,11 +38,12 @@ export const vocabulary: Vocabulary = makeVocabulary(
   readCatalog(document),
   actions,
   new Map<string, TreeFacts>([
-    ['MainTree', { calls: new Set(), ports: [], description: '' }],
+    ['MainTree', { calls: new Set(), passed: new Map(), ports: [], description: '' }],
     [
       'Inner',
       {
         calls: new Set(),
+        passed: new Map(),
         description: '',
         ports: [
           {

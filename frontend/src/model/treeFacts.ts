@@ -1,4 +1,4 @@
-import { subtreeOf, type Diagram } from './diagram';
+import { subtreeOf, type Diagram, type DiagramNode } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
 import { descriptionOf } from './treeAttributes';
 
@@ -6,6 +6,8 @@ import { descriptionOf } from './treeAttributes';
 export interface TreeFacts {
   /** The trees that the tree calls, not counting calls in drafts. */
   readonly calls: ReadonlySet<string>;
+  /** The names that the tree passes to each tree that it calls; null if it shares all. */
+  readonly passed: ReadonlyMap<string, ReadonlySet<string> | null>;
   /** The ports that the tree has as a SubTree. */
   readonly ports: readonly PortSpec[];
   /** The description of the tree; empty if there is none. */
@@ -32,14 +34,31 @@ function portOf(value: unknown): PortSpec[] {
   ];
 }
 
+const AUTOREMAP = '_autoremap';
+
+/** Returns the names that a SubTree passes; null if it shares all. */
+export function passedBy(node: DiagramNode): readonly string[] | null {
+  const { [AUTOREMAP]: asPort, ...given } = node.ports ?? {};
+  const autoremap = asPort ?? node.attributes?.[AUTOREMAP] ?? '';
+  return /^(?:true|1)$/i.test(autoremap) ? null : Object.keys(given);
+}
+
 function read(diagram: Diagram): TreeFacts {
   const ids = diagram.root === null ? [] : subtreeOf(diagram, diagram.root);
-  const called = ids.flatMap((id) => {
+  const passed = new Map<string, ReadonlySet<string> | null>();
+  for (const id of ids) {
     const node = diagram.nodes[id];
-    return node?.type === 'SubTree' && node.tree ? [node.tree] : [];
-  });
+    if (node?.type !== 'SubTree' || !node.tree) continue;
+    const [names, before] = [passedBy(node), passed.get(node.tree)];
+    passed.set(node.tree, names === null || before === null ? null : new Set([...(before ?? []), ...names]));
+  }
   const rows: readonly unknown[] = Array.isArray(diagram.ports) ? diagram.ports : [];
-  return { calls: new Set(called), ports: rows.flatMap(portOf), description: descriptionOf(diagram) };
+  return {
+    calls: new Set(passed.keys()),
+    passed,
+    ports: rows.flatMap(portOf),
+    description: descriptionOf(diagram),
+  };
 }
 
 const known = new WeakMap<Diagram, TreeFacts>();
@@ -51,6 +70,12 @@ export function treeFacts(diagram: Diagram): TreeFacts {
   return facts;
 }
 
+type Passed = ReadonlySet<string> | null;
+
+const samePassed = (a: Passed, b: Passed | undefined): boolean =>
+  a === b ||
+  (a !== null && b !== null && b !== undefined && a.size === b.size && [...a].every((name) => b.has(name)));
+
 /** Returns whether the facts of a tree are unchanged. */
 export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
   const isSamePort = (port: PortSpec, index: number): boolean =>
@@ -59,7 +84,7 @@ export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
     a === b ||
     (a.description === b.description &&
       a.calls.size === b.calls.size &&
-      [...a.calls].every((tree) => b.calls.has(tree)) &&
+      [...a.passed].every(([tree, names]) => samePassed(names, b.passed.get(tree))) &&
       a.ports.length === b.ports.length &&
       a.ports.every(isSamePort))
   );

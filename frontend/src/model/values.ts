@@ -11,7 +11,7 @@ export type Fit = 'good' | 'loose' | 'range' | 'bad';
 
 const INTEGER = /^-?[0-9]+/;
 const UNSIGNED = /^[0-9]+/;
-const REAL = /^-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan)/i;
+const REAL = /^-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan(?:\(\w*\))?)/i;
 const BOOLEANS = new Set(['0', '1', 'true', 'TRUE', 'True', 'false', 'FALSE', 'False']);
 const RANGES = { int: [-(2 ** 31), 2 ** 31 - 1], uint: [0, 2 ** 32 - 1] } as const;
 const WORST: readonly Fit[] = ['bad', 'range', 'loose'];
@@ -34,6 +34,9 @@ function numberIn(type: string, text: string): string | undefined {
   return (type === 'uint' ? UNSIGNED : INTEGER).exec(text)?.[0];
 }
 
+/** Returns the parts of a list; a separator at its end adds none. */
+const splitList = (text: string): string[] => (text === '' ? [] : text.replace(/;$/, '').split(';'));
+
 export interface Outside {
   readonly number: string;
   readonly low: string;
@@ -42,6 +45,7 @@ export interface Outside {
 
 function outsideDouble(number: string): Outside | null {
   const [digits = ''] = number.toLowerCase().split('e');
+  if (digits.includes('nan')) return null;
   if (!/[0-9.]$/.test(digits)) return null;
   if (!Number.isFinite(Number(number))) return { number, low: '-1.8e308', high: '1.8e308' };
   const isLost = Number(number) === 0 && /[1-9]/.test(digits);
@@ -54,7 +58,7 @@ function outsideDouble(number: string): Outside | null {
  */
 export function outside(type: string, text: string): Outside | null {
   if (type.startsWith('list[')) {
-    const found = text.split(';').map((part) => outside(type.slice(5, -1), part));
+    const found = splitList(text).map((part) => outside(type.slice(5, -1), part));
     return found.find((each) => each !== null) ?? null;
   }
   if (namesOf(type) !== null) return outside('int', text);
@@ -85,7 +89,7 @@ function isJsonList(text: string): boolean {
 function fitList(item: string, text: string): Fit {
   if (text === '') return 'good';
   if (text.startsWith('json:')) return isJsonList(text.slice(5)) ? 'good' : 'bad';
-  const fits = new Set(text.split(';').map((part) => fit(item, part)));
+  const fits = new Set(splitList(text).map((part) => fit(item, part)));
   return WORST.find((each) => fits.has(each)) ?? 'good';
 }
 

@@ -12,6 +12,8 @@ export interface CodeFinding {
 export type LanguageState =
   | { readonly kind: 'off' }
   | { readonly kind: 'starting' }
+  /** Others get a place before it; with `isOwn` it waits until another editor of the same user ends. */
+  | { readonly kind: 'waiting'; readonly before: number; readonly isOwn: boolean }
   | { readonly kind: 'ready' }
   /** The server has ended or cannot run; `reason` is the server's message. */
   | { readonly kind: 'failed'; readonly reason: string; readonly willRetry: boolean };

@@ -2,8 +2,10 @@ import { Button, Group } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 import { IconBulb } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
+import { UnwritableError } from '@/model/document/rewrite';
 import type { Fix } from '@/model/fixes';
-import { applyFix } from '@/store/project/edits/fixes';
+import { applyFix, type TakeBack } from '@/store/project/edits/fixes';
 
 interface QuickFixesProps {
   readonly tree: string;
@@ -16,10 +18,20 @@ interface QuickFixesProps {
 export function QuickFixes({ tree, fixes, onDone }: QuickFixesProps) {
   const { t } = useTranslation('editor');
   if (fixes.length === 0) return null;
-  const act = (fix: Fix) => {
-    const undo = applyFix(tree, fix);
+  const act = async (fix: Fix) => {
+    const applied = applyFix(tree, fix);
     onDone?.();
-    if (!undo) return;
+    try {
+      const undo = await applied;
+      if (undo) fixed(fix, undo);
+      else if (typeof fix.does !== 'function' && fix.does.makes !== 'typing')
+        notifications.show({ message: t('fixed.nothing') });
+    } catch (error) {
+      const message = error instanceof UnwritableError ? t('editor3d:unwritable') : reasonOf(error as Error);
+      notifications.show({ color: 'red', message });
+    }
+  };
+  const fixed = (fix: Fix, undo: TakeBack) => {
     const id = ['fix', fix.key, ...Object.values(fix.values)].join(' ');
     notifications.show({
       id,
@@ -31,7 +43,7 @@ export function QuickFixes({ tree, fixes, onDone }: QuickFixesProps) {
             size="compact-xs"
             variant="light"
             onClick={() => {
-              undo();
+              if (!undo()) notifications.show({ message: t('fixed.changed') });
               notifications.hide(id);
             }}
           >
@@ -51,7 +63,7 @@ export function QuickFixes({ tree, fixes, onDone }: QuickFixesProps) {
           data-testid={`fix-${fix.key}`}
           leftSection={<IconBulb size={13} aria-hidden="true" />}
           onClick={() => {
-            act(fix);
+            void act(fix);
           }}
         >
           {t(`fix.${fix.key}`, fix.values)}

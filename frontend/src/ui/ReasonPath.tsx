@@ -1,6 +1,6 @@
 import { useTranslation } from 'react-i18next';
 import type { ReasonStep } from '@/store/project/problems';
-import { openStep } from '@/store/problems/open';
+import { openBlock } from '@/store/problems/open';
 import classes from './findings.module.css';
 
 interface ReasonPathProps {
@@ -20,7 +20,7 @@ export function ReasonPath({ path }: ReasonPathProps) {
             data-testid={`step-${index}`}
             title={t('path.open', { tree: step.tree, name: step.label })}
             onClick={() => {
-              openStep(step);
+              openBlock(step);
             }}
           >
             {step.label}

@@ -3,6 +3,8 @@ import { ActionIcon, Tooltip, useComputedColorScheme, useMantineColorScheme } fr
 import { IconMoon, IconSun } from '@tabler/icons-react';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useIsBasic } from '@/store/viewMode';
+import { usePressed } from './hooks/usePressed';
 
 export function ThemeToggle() {
   const { t } = useTranslation('frame');
@@ -10,6 +12,7 @@ export function ThemeToggle() {
   const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
   const labelKey = isDark ? 'theme.toLight' : 'theme.toDark';
   const label = t(labelKey);
+  const { isPressed, handlers } = usePressed();
   const toggle = () => setColorScheme(isDark ? 'light' : 'dark');
   useEffect(
     () =>
@@ -24,9 +27,11 @@ export function ThemeToggle() {
       ]),
     [labelKey, isDark, setColorScheme],
   );
+  const isBasic = useIsBasic(); // then it is in the menu
+  if (isBasic) return null;
   return (
-    <Tooltip label={label}>
-      <ActionIcon size="lg" aria-label={label} data-testid="theme-toggle" onClick={toggle}>
+    <Tooltip label={label} disabled={isPressed}>
+      <ActionIcon size="lg" aria-label={label} data-testid="theme-toggle" onClick={toggle} {...handlers}>
         {isDark ? <IconSun size={20} /> : <IconMoon size={20} />}
       </ActionIcon>
     </Tooltip>

@@ -30,4 +30,15 @@ describe('the editor reads scripts as the engine does', () => {
       expect({ script, read: named(facts.read), written: named(facts.written) }).toEqual(wanted);
     }
   });
+
+  it('up to the same length, in characters and not in units of UTF-16', () => {
+    const script = (length: number) => `a := '${'𝄞'.repeat(length - 7)}'`;
+    expect(isProblem(readScript(script(20000)))).toBe(false);
+    const facts = readScript(script(20001));
+    expect(isProblem(facts) && { span: facts.span, ...scriptText(facts, t) }).toEqual({
+      span: [0, 0],
+      message: 'the script is longer than 20000 characters',
+      hint: 'split it into several nodes',
+    });
+  });
 });

@@ -1,3 +1,4 @@
+import { Modal } from '@mantine/core';
 import { act, screen } from '@testing-library/react';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { closePalette, openPalette } from '@/commands/palette';
@@ -44,6 +45,18 @@ describe('the command palette', () => {
     expect(screen.getByRole('option', { name: 'Topics' })).toHaveAttribute('aria-disabled', 'true');
   });
 
+  it('is closed by Escape alone, and not with a dialogue below it', async () => {
+    const closeBelow = vi.fn();
+    show(
+      <Modal opened onClose={closeBelow} trapFocus={false}>
+        Below
+      </Modal>,
+    );
+    await user.keyboard('{Escape}');
+    expect(screen.queryByTestId('command-palette')).toBeNull();
+    expect(closeBelow).not.toHaveBeenCalled();
+  });
+
   it('is used by keys: the arrows go round, Enter runs the command after the focus has returned', async () => {
     const field = screen.getByRole('combobox');
     expect(field).toHaveFocus();
@@ -78,11 +91,11 @@ describe('the command palette', () => {
     await user.type(screen.getByRole('combobox'), 'qqq');
     expect(screen.getByText('No command or file has this name')).toBeInTheDocument();
     await user.keyboard('{Escape}');
-    expect(screen.queryByRole('dialog')).toBeNull();
+    expect(screen.queryByTestId('command-palette')).toBeNull();
     act(() => {
       openPalette();
     });
     await user.click(screen.getByRole('dialog').parentElement!);
-    expect(screen.queryByRole('dialog')).toBeNull();
+    expect(screen.queryByTestId('command-palette')).toBeNull();
   });
 });

@@ -148,6 +148,8 @@ function Palette({ page }: { readonly page: Document }) {
           <input
             ref={field}
             role="combobox"
+            // Escape closes the palette alone, not a dialogue below it, which listens at the window.
+            data-mantine-stop-propagation="true"
             aria-expanded="true"
             aria-controls="commands"
             aria-activedescendant={found.length > 0 ? `command-${active}` : undefined}

@@ -23,7 +23,7 @@ describe('views of cameras', () => {
     expect(cameraOf(view('camera'))).toBeNull();
     chooseCamera(view('camera'), 'front');
     openCameraBelow(view('camera'), 'rear');
-    keepLayout('wide', model);
+    keepLayout('wide', 'full', model);
     model = loadLayout('wide', true);
     expect(cameraOf(view('camera'))).toBe('front');
     expect(cameraOf(view('camera:2'))).toBe('rear');

@@ -96,6 +96,23 @@ it('waits for the fields of the block that was just selected', () => {
   expect(document.activeElement).toBe(document.querySelector('input'));
 });
 
+it.each(['port-speed', 'condition-speed'])('moves into the field that is asked for: %s', (field) => {
+  useProjectStore.setState({ activeTree: 'Main', selection: ['n3'] });
+  document.body.innerHTML = inspectorOf('n3').replace(
+    '<input />',
+    `<input data-testid="port-a" /><textarea data-testid="${field}"></textarea>`,
+  );
+  focusInspector('speed');
+  expect(document.activeElement).toBe(document.querySelector('textarea'));
+});
+
+it('moves into the first field where the one that is asked for is missing', () => {
+  useProjectStore.setState({ activeTree: 'Main', selection: ['n3'] });
+  document.body.innerHTML = inspectorOf('n3');
+  focusInspector('"] gone');
+  expect(document.activeElement).toBe(document.querySelector('input'));
+});
+
 it('leaves the focus alone when the user moves on before the fields are there', () => {
   useProjectStore.setState({ activeTree: 'Main', selection: ['n3'] });
   document.body.innerHTML = inspectorOf('n2');

@@ -72,8 +72,11 @@ export function letGoOfDocument(): void {
 export const selectionKey = (tree: string | null, count: number, node: string | undefined): string =>
   `${tree ?? ''} ${count === 1 ? (node ?? '') : count}`;
 
-/** Moves the focus to the first property of the selected block, once the inspector shows that block. */
-export function focusInspector(): void {
+/**
+ * Moves the focus to a property of the selected block, once the inspector shows that block: to the field of a
+ * port or script, or to the first one.
+ */
+export function focusInspector(port?: string): void {
   pending.abort();
   const mine = new AbortController();
   pending = mine;
@@ -87,15 +90,18 @@ export function focusInspector(): void {
     // The inspector renders after the canvas: until then it shows the selection before.
     if (panel?.dataset['selection'] === selectionKey(activeTree, selection.length, selection[0])) {
       mine.abort();
-      focusFirstField(panel);
+      focusField(panel, port);
     } else if (performance.now() - started < PATIENCE_MS) setTimeout(attempt, RETRY_MS);
     else mine.abort();
   };
   attempt();
 }
 
-function focusFirstField(panel: HTMLElement): void {
+function focusField(panel: HTMLElement, port: string | undefined): void {
+  const name = CSS.escape(port ?? '');
+  const asked = `[data-testid="port-${name}"], [data-testid="condition-${name}"]`;
   const field =
+    (port === undefined ? null : panel.querySelector<HTMLElement>(asked)) ??
     panel.querySelector<HTMLElement>('[data-testid^="port-"]') ??
     panel.querySelector<HTMLElement>('input, textarea, select, button');
   const input = field?.matches('input, textarea, button, [contenteditable]')

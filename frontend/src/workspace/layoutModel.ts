@@ -6,6 +6,7 @@ import {
   type IJsonTabNode,
   type IJsonTabSetNode,
 } from 'flexlayout-react';
+import { useViewMode, type ViewMode } from '@/store/viewMode';
 
 /** The panels; their names are texts of `frame:panel`. */
 export type PanelId =
@@ -76,7 +77,10 @@ export const EDITORS = 'editors';
  * The version of the default layout. Raise it when the default changes, so that stored layouts are dropped.
  */
 const VERSION = 1;
-const storageKey = (width: FrameWidth) => `bts.layout.${VERSION}.${width}`;
+function storageKey(width: FrameWidth, mode: ViewMode): string {
+  const key = `bts.layout.${VERSION}.${width}`;
+  return mode === 'basic' ? `${key}.basic` : key;
+}
 
 const panel = (id: PanelId): IJsonTabNode => ({
   type: 'tab',
@@ -137,8 +141,59 @@ export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void
   else addBesideEditors(model, tab);
 }
 
-function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
+/** The panel beside which one that the basic layout lacks is opened, once it is used. */
+const HOMES: Partial<Record<PanelId, PanelId>> = {
+  explorer: 'palette',
+  search: 'palette',
+  outline: 'palette',
+  history: 'palette',
+  library: 'palette',
+  tests: 'problems',
+  evaluate: 'problems',
+  timeline: 'problems',
+  topics: 'problems',
+  breakpoints: 'problems',
+  profile: 'problems',
+  blackboard: 'inspector',
+  camera: 'video',
+};
+
+/** Opens a panel that the layout lacks; returns whether there is a place for it. */
+export function openMissing(model: Model, id: PanelId): boolean {
+  const beside = model.getNodeById(HOMES[id] ?? '')?.getParent();
+  if (!beside) return false;
+  const tab = { ...panel(id), enableClose: true };
+  model.doAction(Actions.addTab(tab, beside.getId(), DockLocation.CENTER, -1, true));
+  return true;
+}
+
+/** Returns the layout of a first project: blocks, tree, output, robot and properties. */
+function basicLayout(width: FrameWidth, view: number): IJsonModel {
+  const views: PanelId[] = ['viewer3d', 'video'];
+  const output: PanelId[] = ['console', 'problems'];
+  if (width === 'narrow') {
+    const panels = tabset('panels', 45, [...views, 'inspector', 'palette', ...output], view);
+    const children = [tabset(EDITORS, 55, []), panels];
+    return { global: { ...global, rootOrientationVertical: true }, layout: { type: 'row', children } };
+  }
+  const middle = [tabset(EDITORS, 78, []), tabset('output', 22, output)];
+  const right = [tabset('views', 50, views, view), tabset('details', 50, ['inspector'])];
+  return {
+    global,
+    layout: {
+      type: 'row',
+      children: [
+        tabset('nodes', 15, ['palette']),
+        { type: 'row', weight: 55, children: middle },
+        { type: 'row', weight: 30, children: right },
+      ],
+    },
+  };
+}
+
+function defaultLayout(width: FrameWidth, hasWebGl: boolean, mode: ViewMode): IJsonModel {
   const view = hasWebGl ? 0 : 1;
+  if (mode === 'basic') return basicLayout(width, view);
   if (width === 'narrow') {
     return {
       global: { ...global, rootOrientationVertical: true },
@@ -291,17 +346,20 @@ function resetSelection(node: LayoutNode): void {
   node.children?.forEach(resetSelection);
 }
 
+/** Returns the user's layout for the present view mode, or the default one. */
 export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
-  const kept = localStorage.getItem(storageKey(width));
+  const { mode } = useViewMode.getState();
+  const kept = localStorage.getItem(storageKey(width, mode));
   if (kept) {
     try {
       const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
-      if (model.getNodeById(EDITORS)) return withWindows(withNewPanels(model));
+      const whole = mode === 'full' ? withNewPanels(model) : model;
+      if (model.getNodeById(EDITORS)) return withWindows(whole);
     } catch {
       // An unreadable layout is replaced by the default one.
     }
   }
-  return Model.fromJson(defaultLayout(width, hasWebGl));
+  return Model.fromJson(defaultLayout(width, hasWebGl, mode));
 }
 
 /** Adds the panels that a stored layout lacks, beside their neighbours. */
@@ -322,11 +380,13 @@ function withWindows(model: Model): Model {
   return model;
 }
 
-export function keepLayout(width: FrameWidth, model: Model): void {
-  localStorage.setItem(storageKey(width), JSON.stringify(withoutDocuments(model.toJson())));
+export function keepLayout(width: FrameWidth, mode: ViewMode, model: Model): void {
+  localStorage.setItem(storageKey(width, mode), JSON.stringify(withoutDocuments(model.toJson())));
 }
 
 export function forgetLayouts(): void {
-  localStorage.removeItem(storageKey('wide'));
-  localStorage.removeItem(storageKey('narrow'));
+  for (const mode of ['basic', 'full'] as const) {
+    localStorage.removeItem(storageKey('wide', mode));
+    localStorage.removeItem(storageKey('narrow', mode));
+  }
 }

@@ -67,7 +67,7 @@ it('shows an open lesson instead of closing it', () => {
 it('leaves the lesson out of the layout, which belongs to the user', () => {
   const model = open();
   showLesson();
-  keepLayout('wide', model);
+  keepLayout('wide', 'full', model);
   const again = loadLayout('wide', true);
   expect(lessonOf(again)).toBeUndefined();
   const empty: string[] = [];

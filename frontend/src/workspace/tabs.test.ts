@@ -1,9 +1,19 @@
-import { expect, it } from 'vitest';
-import { TabNode } from 'flexlayout-react';
+import { expect, it, onTestFinished } from 'vitest';
+import { Actions, TabNode } from 'flexlayout-react';
 import { useProjectStore } from '@/store/project';
 import { openProject } from '../../harness/testing';
 import { watchTabs } from '../../harness/tabs';
-import { folderOf, followNames, openTab, useTabs } from './tabs';
+import { loadLayout } from './layoutModel';
+import {
+  folderOf,
+  followNames,
+  frontDocument,
+  openPast,
+  openTab,
+  showPanel,
+  showTree,
+  useTabs,
+} from './tabs';
 
 const file = (path: string) => ({ kind: 'file', path }) as const;
 
@@ -51,4 +61,40 @@ it('tells universes of one name apart by their ids', () => {
   openProject({ texts: { 'universes/a.yaml': 'name: Hall', 'universes/b.yaml': 'name: Hall' } });
   const open = [file('universes/a.yaml'), file('universes/b.yaml')];
   expect(open.map((tab) => folderOf(tab, open))).toEqual(['a', 'b']);
+});
+
+it('brings a tree to the front in place of another tree, and of nothing else', () => {
+  watchTabs();
+  openProject({ trees: { Main: {}, Side: {} }, texts: { 'notes.md': 'x' } });
+  const front = () => {
+    const { model } = useTabs.getState();
+    return model && frontDocument(model);
+  };
+  openTab({ kind: 'tree', id: 'Main' });
+  expect([showTree('Main'), showTree('Side'), front()]).toEqual([true, true, { kind: 'tree', id: 'Side' }]);
+  openTab(file('notes.md'));
+  expect([showTree('Main'), front()]).toEqual([false, file('notes.md')]);
+});
+
+it('uncovers what is brought to the front, a kept run too, and leaves a panel large while one looks back', () => {
+  localStorage.clear();
+  const model = loadLayout('wide', true);
+  useTabs.setState({ model, width: 'wide' });
+  onTestFinished(() => useTabs.setState(useTabs.getInitialState(), true));
+  const covering = () => model.getMaximizedTabset()?.getId();
+  const cover = (id: string) => model.doAction(Actions.maximizeToggle(id));
+  cover('output');
+  showPanel('problems');
+  expect(covering()).toBe('output');
+  showPanel('blackboard');
+  expect(covering()).toBeUndefined();
+  cover('output');
+  openTab(file('notes.md'));
+  expect(covering()).toBeUndefined();
+  cover('views');
+  openPast();
+  expect(covering()).toBe('views');
+  model.doAction(Actions.deleteTab(model.getNodeById('editors')!.getChildren().at(-1)!.getId()));
+  openPast(true);
+  expect(covering()).toBeUndefined();
 });

@@ -5,7 +5,7 @@ import { useProjectStore } from '@/store/project';
 import { documentName, kindOf } from '@/store/project/moving';
 import type { DocumentTab } from './documents';
 import { focusDocument } from './focus';
-import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
+import { EDITORS, openMissing, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
 
 /** A line to which an editor moves its cursor; `request` distinguishes two requests for the same line. */
 export interface LineTarget {
@@ -110,7 +110,23 @@ export function bringToFront(tab: DocumentTab): boolean {
     const json: IJsonTabNode = { type: 'tab', component: tab.kind, ...faceOf(tab) };
     model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, true));
   }
+  uncover(model, nodeOf(model, tab));
   return true;
+}
+
+/** Ends the maximized state of another set of tabs, which would cover what is brought to the front. */
+function uncover(model: Model, node: TabNode | null): void {
+  const covering = model.getMaximizedTabset();
+  if (node?.getLayoutId() !== MAIN_LAYOUT || !covering || covering === node.getParent()) return;
+  model.doAction(Actions.maximizeToggle(covering.getId()));
+}
+
+/** Brings a tree to the front if a tree is there already; returns whether it is in front now. */
+export function showTree(id: string): boolean {
+  const { model } = useTabs.getState();
+  const front = model && frontDocument(model);
+  if (front?.kind !== 'tree') return false;
+  return front.id === id || bringToFront({ kind: 'tree', id });
 }
 
 /** Moves the cursor of the editor that shows a file to a line. */
@@ -137,6 +153,7 @@ export function openPast(isAsked = false): void {
   const json: IJsonTabNode = { type: 'tab', component: 'past', className: 'bts-past', ...faceOf(PAST) };
   const isSelected = isAsked || front === null || front.kind === 'tree';
   model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, isSelected));
+  if (isAsked) uncover(model, nodeOf(model, PAST));
 }
 
 /** Closes the tab of the tree as it ran; the document that it covered comes to the front. */
@@ -189,11 +206,14 @@ export function closeGone(): void {
   }
 }
 
-/** Brings a panel to the front, unless the user has closed it. */
+/** Brings a panel to the front; one that the basic layout lacks is opened. */
 export function showPanel(panel: PanelId): void {
   const { model } = useTabs.getState();
+  if (model && !model.getNodeById(panel)) openMissing(model, panel);
   const node = model?.getNodeById(panel);
-  if (node instanceof TabNode && !node.isVisible()) model?.doAction(Actions.selectTab(panel));
+  if (!model || !(node instanceof TabNode)) return;
+  if (!node.isVisible()) model.doAction(Actions.selectTab(panel));
+  uncover(model, node);
 }
 
 /** Opens or closes a panel beside the documents. */

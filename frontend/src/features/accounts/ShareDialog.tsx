@@ -9,6 +9,7 @@ import { accounts, type SharedRole } from './api';
 import { CopyRow } from './CopyRow';
 import { MakeOwner } from './MakeOwner';
 import { label, Row, SharedRows } from './SharedRows';
+import { SharedRightsNotice } from './SharedRightsNotice';
 
 interface ShareDialogProps {
   readonly projectId: string;
@@ -52,6 +53,7 @@ function Sharing({ projectId, onClose }: Pick<ShareDialogProps, 'projectId' | 'o
   const addable = groups.filter((group) => !data.groups.some((shared) => shared.id === group.id));
   return (
     <Stack gap="md">
+      <SharedRightsNotice />
       <AddPerson
         isBusy={change.isPending}
         onAdd={(who, role) => run(() => accounts.shareWithPerson(projectId, who, role))}

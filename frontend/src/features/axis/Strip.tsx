@@ -9,7 +9,7 @@ import {
   useState,
 } from 'react';
 import { useTranslation } from 'react-i18next';
-import { drawStretch, paletteOf } from '@/features/timeline/draw';
+import { drawStretch, drawTimes, paletteOf } from '@/features/timeline/draw';
 import { leaveMoment } from '@/store/moment/compare/comparing';
 import { goSeconds, goTicks, lookAt, setPlaying, type Extent } from '@/store/moment/looking';
 import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
@@ -86,6 +86,7 @@ export function Strip({ extent }: { readonly extent: Extent }) {
         const x = Math.max((start - from) * scale, 0);
         drawStretch(context, mask, x, Math.max((end - start) * scale, 1), 0, palette);
       }
+      drawTimes(context, { from, to: from + length }, element.clientWidth, palette);
     };
     draw();
     // The colours depend on the theme.

@@ -10,6 +10,7 @@ import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useIsBack, useMoment } from '@/store/moment/store';
 import { liveSource } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
+import { useIsBasic } from '@/store/viewMode';
 import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
@@ -95,6 +96,8 @@ function Axis({ extent }: { readonly extent: Extent }) {
   const speed = useMoment((state) => state.speed);
   const axis = useTimesOn();
   const play = t(isPlaying ? 'pause' : 'play');
+  // They keep their place, so that the strip does not move below the pointer that takes it to the past.
+  const isQuiet = useIsBasic() && !isBack;
   return (
     <section
       ref={axis}
@@ -102,6 +105,7 @@ function Axis({ extent }: { readonly extent: Extent }) {
       aria-label={t('label')}
       data-testid="time-axis"
       data-past={isBack || undefined}
+      data-quiet={isQuiet || undefined}
     >
       <Tooltip label={play}>
         <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
@@ -118,7 +122,9 @@ function Axis({ extent }: { readonly extent: Extent }) {
       />
       <RunSelect run={extent.run} />
       <Strip extent={extent} />
-      <AxisMenu />
+      <div className={classes['extra']}>
+        <AxisMenu />
+      </div>
       <Note />
       <Clock end={extent.to} />
       {hasLink ? (
@@ -136,7 +142,9 @@ function Axis({ extent }: { readonly extent: Extent }) {
       ) : null}
       <GoBackButton />
       <RunOnButton />
-      <CommandButton command="tests.moment" size={26} testId="axis-test" />
+      <div className={classes['extra']}>
+        <CommandButton command="tests.moment" size={26} testId="axis-test" />
+      </div>
       <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
         <Button
           size="compact-xs"
@@ -170,7 +178,10 @@ function Note() {
       ) : isBack && !isRead ? (
         t('reading')
       ) : isBack ? (
-        <span className={classes['back']} title={t('backHelp')}>
+        <span
+          className={classes['back']}
+          title={kept ? `${t('kept', { name: kept.name })} ${t('backHelp')}` : t('backHelp')}
+        >
           {kept ? t('kept', { name: kept.name }) : t(source === liveSource ? 'back' : 'earlier')}
         </span>
       ) : null}

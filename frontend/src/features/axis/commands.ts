@@ -30,7 +30,7 @@ import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { markCommands } from './markCommands';
 import { rangeCommands } from './rangeCommands';
-import { copyLink } from '@/ui/copyLink';
+import { copyLink } from '@/ui/copying';
 import { bringToFront } from '@/workspace/tabs';
 
 const hasRecording = () => extent() !== null;

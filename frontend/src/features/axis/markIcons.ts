@@ -3,6 +3,7 @@ import {
   IconBugFilled,
   IconCircleCheckFilled,
   IconFlagFilled,
+  IconHandFinger,
   IconHandStop,
   IconPlayerRecordFilled,
 } from '@tabler/icons-react';
@@ -16,4 +17,5 @@ export const MARK_ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
   flag: IconFlagFilled,
   stopped: IconPlayerRecordFilled,
   held: IconHandStop,
+  forced: IconHandFinger,
 };

@@ -63,7 +63,7 @@ export function marksOf(
 
 /** Drops marks that would lie under another one; a flag stays rather than a fault or a hold, which rather than others. */
 export function apart(marks: readonly Mark[], leastS: number): Mark[] {
-  const rank = { stopped: 0, flag: 1, fault: 2, held: 3, finished: 4, collision: 5 };
+  const rank = { stopped: 0, flag: 1, fault: 2, held: 3, forced: 4, finished: 5, collision: 6 };
   const kept: Mark[] = [];
   for (const mark of [...marks].sort((a, b) => rank[a.kind] - rank[b.kind] || a.t - b.t))
     if (kept.every((other) => Math.abs(other.t - mark.t) >= leastS)) kept.push(mark);

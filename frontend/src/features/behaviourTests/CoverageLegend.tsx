@@ -60,7 +60,7 @@ function Legend({ treeId }: { readonly treeId: string }) {
       label={t('legend.label')}
       title={covered ? t('legend.share', { percent: Math.floor(covered.share * 100) }) : t('legend.title')}
     >
-      {isRunning && <Loader size={12} aria-label={t('running')} />}
+      {isRunning && <Loader size={12} role="status" aria-label={t('running')} />}
       {!hasTests ? (
         <p>{t('legend.noTests')}</p>
       ) : refused !== null ? (

@@ -11,9 +11,13 @@ it('says its level in words', () => {
 it('has another shape for each level', () => {
   const shapes = (['never', 'partly', 'fully'] as const).map((level) => {
     const { container, unmount } = show(<LevelSign level={level} />);
-    const shape = [...container.querySelectorAll('svg > *')].map((part) => part.getAttribute('d') ?? 'disc');
+    const shape = [...container.querySelectorAll('svg > *')].map(
+      (part) => part.getAttribute('d') ?? part.tagName,
+    );
     unmount();
     return shape.join(' ');
   });
   expect(new Set(shapes).size).toBe(3);
+  // Statuses are round.
+  expect(shapes.join(' ')).not.toContain('circle');
 });

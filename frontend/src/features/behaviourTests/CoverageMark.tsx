@@ -2,7 +2,7 @@ import { useTranslation } from 'react-i18next';
 import type { Level } from '@/store/behaviourTests/coverage';
 import classes from './coverage.module.css';
 
-/** The sign of a level: an empty, half or full disc, so that it does not depend on colours. */
+/** The sign of a level: an empty, half or full square, so that it does not depend on colours, and is no status. */
 export function LevelSign({ level }: { readonly level: Level }) {
   return (
     <svg
@@ -13,15 +13,10 @@ export function LevelSign({ level }: { readonly level: Level }) {
       height={16}
       aria-hidden="true"
     >
-      <circle className={classes['disc']} cx={8} cy={8} r={6} />
-      {level === 'never' && <path className={classes['stroke']} d="M4 12 L12 4" />}
-      {level === 'partly' && <path className={classes['part']} d="M8 2 A6 6 0 0 1 8 14 Z" />}
-      {level === 'fully' && (
-        <>
-          <circle className={classes['part']} cx={8} cy={8} r={6} />
-          <path className={classes['check']} d="M5 8.2 L7.2 10.4 L11 6" />
-        </>
-      )}
+      <rect className={classes['frame']} x={2} y={2} width={12} height={12} />
+      {level === 'never' && <path className={classes['stroke']} d="M2 14 L14 2" />}
+      {level === 'partly' && <path className={classes['part']} d="M2 8 H14 V14 H2 Z" />}
+      {level === 'fully' && <rect className={classes['part']} x={2} y={2} width={12} height={12} />}
     </svg>
   );
 }

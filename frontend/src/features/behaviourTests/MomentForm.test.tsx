@@ -1,7 +1,8 @@
-import { screen, waitFor } from '@testing-library/react';
-import { beforeEach, describe, expect, it } from 'vitest';
+import { act, screen, waitFor } from '@testing-library/react';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { parse } from 'yaml';
 import { useProjectStore } from '@/store/project';
+import { useLargeFiles } from '@/store/saving/large';
 import type { Story } from '@/store/recording/story';
 import { action, fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { MomentForm } from './MomentForm';
@@ -114,6 +115,24 @@ describe('a test of a moment', () => {
     open({ 'tests/a.test.yaml': 'tests: [' });
     expect(screen.getByText(/No test can be added to this file/)).toBeVisible();
     expect(screen.getByRole('button', { name: 'Write the test' })).toBeDisabled();
+  });
+
+  it('waits for a large file, and says why it cannot be loaded', async () => {
+    const path = 'tests/a.test.yaml';
+    open();
+    act(() => {
+      const large = { path, kind: 'large', text: null, revision: 1, savedText: null } as const;
+      useProjectStore.setState(({ files }) => ({ files: { ...files, [path]: large } }));
+    });
+    let answer: (file: Response) => void = () => undefined;
+    vi.stubGlobal('fetch', () => new Promise<Response>((resolve) => (answer = resolve)));
+    await user.click(screen.getByRole('combobox', { name: 'File' }));
+    await user.click(await screen.findByRole('option', { name: path }));
+    expect(screen.getByText(`${path} is loaded…`)).toBeVisible();
+    expect(screen.queryByText(/No test can be added/)).toBeNull();
+    act(() => answer(Response.json({ title: 'Not found', code: 'not_found' }, { status: 404 })));
+    expect(await screen.findByText(/could not be loaded: Not found/)).toBeVisible();
+    useLargeFiles.setState({ failed: {} });
   });
 
   it('that fails is written only if the user wants it', async () => {

@@ -18,6 +18,7 @@ import { isTestFile } from '@/store/behaviourTests/useTestsAfterSave';
 import { tryTest, writeTest } from '@/store/behaviourTests/writeMoment';
 import { closeMomentTest } from '@/store/dialogs/momentTest';
 import { useProjectStore } from '@/store/project';
+import { useFileText, useLargeFiles } from '@/store/saving/large';
 import { openFile } from '@/store/project/navigation';
 import type { Story } from '@/store/recording/story';
 import { undoNotification } from '@/ui/undoNotification';
@@ -55,8 +56,13 @@ export function MomentForm({ story }: MomentFormProps) {
     () => draftOf(story, { diagrams, vocabulary, tickHz }, last >= all ? null : last),
     [story, diagrams, vocabulary, tickHz, last, all],
   );
-  const text = files[path]?.text ?? null;
-  const taken = text === null ? [] : namesIn(text);
+  const text = useFileText(path);
+  const isLarge = files[path]?.kind === 'large';
+  const failure = useLargeFiles((state) => state.failed[path]);
+  const loading = failure
+    ? t('code:large.failed', { path, reason: failure.reason })
+    : t('code:large.loading', { path });
+  const taken = isLarge ? null : text === null ? [] : namesIn(text);
   const chosen: Chosen = { ...choice, name: name.trim() };
   const problem =
     taken === null
@@ -121,7 +127,7 @@ export function MomentForm({ story }: MomentFormProps) {
           data={paths}
           value={path}
           allowDeselect={false}
-          error={problem === 'file' ? t('moment.badFile') : null}
+          error={problem !== 'file' ? null : isLarge ? loading : t('moment.badFile')}
           onChange={(value) => {
             setPath(value ?? NEW_FILE);
             setRefused(null);

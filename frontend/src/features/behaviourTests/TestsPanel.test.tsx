@@ -122,6 +122,58 @@ describe('TestsPanel', () => {
     expect(openFile).toHaveBeenLastCalledWith(FILE, 3);
   });
 
+  it('says what is before tests that wait for a place', async () => {
+    open({ [FILE]: 'x' });
+    await screen.findByTestId('tests-summary');
+    act(() => useTests.setState({ turn: { before: 2, isOwn: false } }));
+    expect(screen.getByText('Your tests wait for a place: 2 are before yours')).toBeInTheDocument();
+    act(() => useTests.setState({ turn: { before: 0, isOwn: false } }));
+    expect(screen.getByText('Your tests get the next free place')).toBeInTheDocument();
+    act(() => useTests.setState({ turn: { before: 0, isOwn: true } }));
+    expect(screen.getByText('Your tests wait until other tests of yours have ended')).toBeInTheDocument();
+    act(() => useTests.setState({ turn: null }));
+    expect(screen.getByTestId('tests-summary')).toBeInTheDocument();
+  });
+
+  it('ends tests with Python that wait, and says so', async () => {
+    const { requests } = open({ [FILE]: 'x' });
+    const { projectId } = useProjectStore.getState();
+    await screen.findByTestId('tests-summary');
+    expect(screen.queryByTestId('end-tests')).toBeNull();
+    act(() => useTests.setState({ isRunning: true, withPython: ['another'] }));
+    expect(screen.queryByTestId('end-tests')).toBeNull();
+    act(() => useTests.setState({ withPython: [projectId ?? ''], turn: { before: 1, isOwn: false } }));
+    await user.click(screen.getByRole('button', { name: 'End' }));
+    expect(requests.at(-1)).toMatchObject({
+      method: 'DELETE',
+      path: `/projects/${projectId}/test-with-python`,
+    });
+    expect(await screen.findByText('The tests could not be ended')).toBeInTheDocument();
+    act(() => useTests.setState({ isRunning: false, withPython: [], turn: null, isEnded: true }));
+    expect(screen.getByRole('status')).toHaveTextContent('You have ended the tests');
+    expect(screen.queryByTestId('end-tests')).toBeNull();
+  });
+
+  it('keeps the focus while tests are ended, and hands it on when they are', async () => {
+    open({ [FILE]: 'x' });
+    await screen.findByTestId('tests-summary');
+    const { projectId } = useProjectStore.getState();
+    let answer: (response: Response) => void = () => undefined;
+    const ends = new Promise<Response>((resolve) => (answer = resolve));
+    const { requests } = fakeServer({ [`DELETE /projects/${projectId}/test-with-python`]: ends });
+    act(() => useTests.setState({ withPython: [projectId ?? ''] }));
+    const end = screen.getByRole('button', { name: 'End' });
+    await user.click(end);
+    await user.click(end);
+    expect(end).toHaveAttribute('aria-busy', 'true');
+    expect(end).toHaveFocus();
+    answer(new Response(null, { status: 204 }));
+    await expect.poll(() => end.getAttribute('aria-busy')).toBe('false');
+    expect(requests).toHaveLength(1);
+    act(() => useTests.setState({ withPython: [] }));
+    expect(screen.getByRole('button', { name: 'Run the tests' })).toHaveFocus();
+  });
+
   it('says why the tests could not run', async () => {
     open({ [FILE]: 'x' }, null);
     expect(await screen.findByText(/The tests could not run/)).toBeInTheDocument();

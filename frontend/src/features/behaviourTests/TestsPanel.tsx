@@ -1,16 +1,21 @@
 import { ActionIcon, Button, Loader, ScrollArea, Text } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
 import {
   IconCircleCheck,
   IconCircleDashed,
   IconCircleX,
   IconPercentage60,
   IconPlayerPlay,
+  IconPlayerStop,
 } from '@tabler/icons-react';
+import { useMutation } from '@tanstack/react-query';
+import { useLayoutEffect, useRef, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import type { TestFailure, TestOutcome, TestReport } from '@/api/types';
 import { showCoverage, testKey, useCoverage } from '@/store/behaviourTests/coverage';
 import { revealFailure } from '@/store/behaviourTests/failures';
-import { NEEDS_PYTHON, reportOf, runTests, useTests } from '@/store/behaviourTests/report';
+import { endTests, NEEDS_PYTHON, reportOf, runTests, useTests } from '@/store/behaviourTests/report';
 import { useHasTests, useTestsAfterSave } from '@/store/behaviourTests/useTestsAfterSave';
 import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
@@ -57,13 +62,16 @@ function NoTests() {
 function Tests() {
   const { t } = useTranslation('behaviourTests');
   const projectId = useProjectStore((state) => state.projectId);
-  const { isRunning, refused } = useTests();
+  const { isRunning, isEnded, turn, refused } = useTests();
+  const canEnd = useTests(({ withPython }) => projectId !== null && withPython.includes(projectId));
   const shown = useTests((state) => reportOf(state, projectId));
+  const runButton = useRef<HTMLButtonElement>(null);
   useTestsAfterSave();
   return (
     <>
       <div className={classes['bar']}>
         <Button
+          ref={runButton}
           size="compact-sm"
           variant="light"
           leftSection={<IconPlayerPlay size={14} aria-hidden="true" />}
@@ -82,10 +90,15 @@ function Tests() {
             {t('withPython')}
           </Button>
         ) : null}
+        {canEnd ? <EndButton next={runButton} /> : null}
         <div role="status" className={classes['summary']}>
-          {isRunning ? <Loader size={14} aria-label={t('running')} /> : null}
-          {refused !== null ? (
+          {isRunning ? <Loader size={14} role="status" aria-label={t('running')} /> : null}
+          {turn ? (
+            <span>{turn.isOwn ? t('turn.own') : t('turn.waiting', { count: turn.before })}</span>
+          ) : refused !== null ? (
             <span className={classes['bad']}>{t('refused', { reason: refused })}</span>
+          ) : isEnded ? (
+            <span>{t('end.done')}</span>
           ) : shown ? (
             <Summary report={shown} />
           ) : null}
@@ -116,6 +129,43 @@ function Tests() {
         </ul>
       </ScrollArea>
     </>
+  );
+}
+
+/**
+ * Ends the user's tests with Python, which run or wait for a place.
+ *
+ * @param next Gets the focus if this button has it when it goes.
+ */
+function EndButton({ next }: { readonly next: RefObject<HTMLButtonElement | null> }) {
+  const { t } = useTranslation('behaviourTests');
+  const { mutate, isPending } = useMutation({
+    mutationFn: endTests,
+    onError: (error) =>
+      notifications.show({ color: 'red', title: t('end.failed'), message: reasonOf(error) }),
+  });
+  const button = useRef<HTMLButtonElement>(null);
+  useLayoutEffect(() => {
+    const [shown, after] = [button.current, next.current];
+    return () => {
+      if (shown !== null && shown === document.activeElement) after?.focus();
+    };
+  }, [next]);
+  return (
+    <Button
+      ref={button}
+      size="compact-sm"
+      variant="default"
+      aria-busy={isPending} // not disabled, which would take the focus
+      title={t('end.help')}
+      leftSection={
+        isPending ? <Loader size={14} aria-hidden="true" /> : <IconPlayerStop size={14} aria-hidden="true" />
+      }
+      onClick={() => (isPending ? undefined : mutate())}
+      data-testid="end-tests"
+    >
+      {t('end.do')}
+    </Button>
   );
 }
 

@@ -106,6 +106,13 @@ describe('BlackboardPanel', () => {
     });
   });
 
+  it('shows the keys of py_trees, which nobody writes here', () => {
+    write(entry('speed', 'double', 0.5, { scope: 'py_trees:/robot/' }));
+    expect(screen.getByRole('table', { name: 'py_trees:/robot/' })).toBeInTheDocument();
+    expect(screen.getByTestId('blackboard-speed')).toHaveTextContent('speed0.5number');
+    expect(screen.queryByRole('textbox')).toBeNull();
+  });
+
   it('writes nothing while the run continues, for shortened values, or as a viewer', () => {
     write(entry('long', 'list', '[1, 2, …', { preview: true }), entry('n', 'int', 1));
     expect(screen.queryByLabelText('Value of long')).toBeNull();
@@ -115,6 +122,6 @@ describe('BlackboardPanel', () => {
     expect(screen.queryByRole('textbox')).toBeNull();
     executor.introduce({ role: 'driver', state: 'application_running' });
     expect(screen.queryByRole('textbox')).toBeNull();
-    expect(screen.getByTestId('blackboard-n')).toHaveTextContent('n1int');
+    expect(screen.getByTestId('blackboard-n')).toHaveTextContent('n1whole number');
   });
 });

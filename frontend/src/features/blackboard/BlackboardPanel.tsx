@@ -8,6 +8,9 @@ import type { BlackboardRow as Row } from '@/store/session/types';
 import { BlackboardRow } from './BlackboardRow';
 import classes from './blackboard.module.css';
 
+/** The scopes of py_trees, whose keys only its clients can write. */
+const READ_ONLY = 'py_trees:';
+
 function byScope(rows: readonly Row[]): [scope: string, rows: Row[]][] {
   const groups = new Map<string, Row[]>();
   const sorted = [...rows].sort((a, b) => a.scope.localeCompare(b.scope) || a.key.localeCompare(b.key));
@@ -47,7 +50,7 @@ export function BlackboardPanel() {
               <BlackboardRow
                 key={row.key}
                 row={row}
-                canEdit={isOpen && !isBack && !row.preview}
+                canEdit={isOpen && !isBack && !row.preview && !scope.startsWith(READ_ONLY)}
                 isRecorded={isRecorded}
               />
             ))}

@@ -2,6 +2,7 @@ import { ActionIcon } from '@mantine/core';
 import { IconCursorText, IconHistory } from '@tabler/icons-react';
 import { memo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { typeName } from '@/i18n/typeWords';
 import { keyOf } from '@/model/keys/rename';
 import { treeOfScope } from '@/model/keys/runScope';
 import { openRenameKey } from '@/store/dialogs/renameKey';
@@ -71,7 +72,7 @@ export const BlackboardRow = memo(function BlackboardRow({ row, canEdit, isRecor
           {row.written ? <Written {...row.written} /> : null}
         </td>
         <td className={classes['type']} title={row.type}>
-          {row.type}
+          {typeName(row.type)}
         </td>
       </tr>
       {isOpen && isRecorded ? <Writes row={row} /> : null}

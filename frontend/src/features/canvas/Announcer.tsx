@@ -9,7 +9,7 @@ import type { ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useLiveValues } from '@/store/session/values/live';
 import { shownPort } from '@/store/session/values/shown';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import { shortValue } from './block/spark';
 import { ordinal } from './flow';
 import classes from './Canvas.module.css';

@@ -5,6 +5,7 @@ import { displayName, parentOf, type Diagram, type NodeId } from '@/model/diagra
 import { treeFacts } from '@/model/treeFacts';
 import { openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
+import { useIsBasic } from '@/store/viewMode';
 import classes from './Canvas.module.css';
 
 function pathTo(diagram: Diagram | undefined, id: NodeId | undefined): NodeId[] {
@@ -59,6 +60,9 @@ export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly tree
   const diagram = diagrams[treeId];
   const owners = useMemo(() => ownersOf(diagrams, treeId, main), [diagrams, treeId, main]);
   const path = useMemo(() => pathTo(diagram, first), [diagram, first]);
+  const isBasic = useIsBasic();
+  // The tab names the tree, too.
+  if (isBasic && owners.length === 0 && path.length === 0) return null;
   return (
     <nav className={classes['breadcrumbs']} aria-label={t('breadcrumbs')}>
       {owners.map((owner) => (

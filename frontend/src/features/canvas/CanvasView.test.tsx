@@ -1,10 +1,11 @@
 import { act, fireEvent, screen, waitFor } from '@testing-library/react';
 import type { ReactFlowState } from '@xyflow/react';
-import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { childrenOf, emptyDiagram, type Diagram } from '@/model/diagram';
 import { removeSubtrees } from '@/model/edits';
 import { setEditor, toggleExpanded } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
 import { oneBlock } from '@/store/testing';
 import { now, openDiagram, showDrawn } from '../../../harness/canvas';
 import { nodeOf, watchNavigation } from '../../../harness/testing';
@@ -55,6 +56,15 @@ describe('the canvas', () => {
     expect(screen.getByRole('application', { name: /^Behaviour tree Main/ })).toBe(canvas());
     expect(canvas()).toHaveAttribute('aria-describedby', 'canvas-announcer');
     expect(screen.queryByTestId('ghost-block')).toBeNull();
+  });
+
+  it('rests while the run is paused: nothing moves on it then', () => {
+    open();
+    expect(canvas()).not.toHaveAttribute('data-paused');
+    act(() => useSessionStore.setState({ executor: 'paused' }));
+    expect(canvas()).toHaveAttribute('data-paused', 'true');
+    act(() => useSessionStore.setState({ executor: 'application_running' }));
+    expect(canvas()).not.toHaveAttribute('data-paused');
   });
 
   it('leaves out details when zoomed out', () => {
@@ -338,6 +348,9 @@ it('draws only the visible part of a large tree', () => {
 
 it('scrolls to a block on request', async () => {
   const { view, store: flow } = open();
+  // A canvas without a size waits until it has one.
+  const size = vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(800);
+  onTestFinished(() => size.mockRestore());
   // This replaces the view that React Flow has made.
   act(() => flow.setState({ panZoom: view as unknown as ReactFlowState['panZoom'] }));
   act(() => store().reveal('Main', 'b'));

@@ -9,8 +9,11 @@ import {
 import { useCallback, useMemo, useRef, useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { CoverageLegend } from '@/features/behaviourTests/CoverageLegend';
+import { FollowingChip } from '@/features/run/FollowingChip';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { isWorldPaused } from '@/store/session/clock';
+import { useSessionStore } from '@/store/session/store';
 import { Announcer } from './Announcer';
 import { Block } from './block/Block';
 import { Breadcrumbs } from './Breadcrumbs';
@@ -56,6 +59,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const tree = useTree(treeId);
   const flow = useReactFlow<BlockNode, TreeEdgeType>();
   useKnownSizes();
+  const isPaused = useSessionStore(isWorldPaused);
   const isFar = useStore((state) => state.transform[2] < FAR);
   const hasNamesOnly = useStore(({ transform: [, , zoom] }) => zoom < NAMES && zoom >= FAR);
   const quickAdd = useEditorStore((state) => (state.quickAdd?.tree === treeId ? state.quickAdd : null));
@@ -168,6 +172,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       data-tree={treeId}
       data-far={isFar || undefined}
       data-names={hasNamesOnly || undefined}
+      data-paused={isPaused || undefined}
       role="application"
       aria-label={t('label', { tree: treeId })}
       aria-describedby="canvas-announcer"
@@ -259,6 +264,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       <Breadcrumbs treeId={treeId} />
       <CanvasToolbar treeId={treeId} />
       <CoverageLegend treeId={treeId} />
+      <FollowingChip />
       {find && <FindBar treeId={treeId} onClose={focus} />}
       <BlockMenu
         point={menu}

@@ -21,6 +21,7 @@ import { applyKeptFontSize } from './fontSize';
 import { changesBetween } from './language/ruff';
 import { uriOf } from './language/uris';
 import { LanguageStatus } from './LanguageStatus';
+import { LargeFile } from './LargeFile';
 import { ReferencesPanel } from './places/ReferencesPanel';
 import { RenameDialog } from './places/RenameDialog';
 import { testMarks } from './testMarks';
@@ -44,8 +45,13 @@ interface Left {
   readonly hadFocus: boolean;
 }
 
-/** The text editor of one file of the project. */
+/** The text editor of one file of the project; a file that did not come with the project is loaded first. */
 export function CodeTab({ path }: CodeTabProps) {
+  const isLarge = useProjectStore((state) => state.files[path]?.kind === 'large');
+  return isLarge ? <LargeFile path={path} /> : <FileEditor path={path} />;
+}
+
+function FileEditor({ path }: CodeTabProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);

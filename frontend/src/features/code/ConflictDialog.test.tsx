@@ -1,6 +1,6 @@
 import { EditorView } from '@codemirror/view';
 import { act, screen, waitFor } from '@testing-library/react';
-import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Conflict } from '@/api/types';
 import { useProjectStore } from '@/store/project';
 import { useSavingStore } from '@/store/saving/store';
@@ -19,7 +19,8 @@ const conflict = (path: string, more: Partial<Conflict> = {}): Conflict => ({
 
 let answers: Record<string, unknown>;
 let requests: ReturnType<typeof fakeServer>['requests'];
-const saved = () => requests.map(({ body }) => (body as { files: unknown[] }).files);
+const saved = () =>
+  requests.filter(({ method }) => method === 'POST').map(({ body }) => (body as { files: unknown[] }).files);
 const button = (name: string) => user.click(screen.getByRole('button', { name }));
 const text = (path: string) => useProjectStore.getState().currentText(path);
 
@@ -56,6 +57,65 @@ describe('ConflictDialog', () => {
     await user.keyboard('{Escape}');
     expect(screen.getByRole('dialog')).toBeInTheDocument();
     expect(screen.queryByRole('button', { name: 'Close' })).toBeNull();
+  });
+
+  it('loads a large version of the server, and never deletes the file in its place', async () => {
+    vi.stubGlobal('fetch', async () => new Response('the whole text', { headers: { 'x-revision': '6' } }));
+    onTestFinished(() => void vi.unstubAllGlobals());
+    await open(conflict('a.md', { theirs: { revision: 5, content: null } }));
+    expect(screen.getByRole('textbox', { name: 'On the server' })).toHaveTextContent('the whole text');
+    await button("Take the server's");
+    expect(text('a.md')).toBe('the whole text');
+  });
+
+  it('leaves a way out if the large version cannot be loaded: to keep the own text', async () => {
+    show(<ConflictDialog />);
+    const conflicts = [conflict('a.md', { theirs: { revision: 5, content: null } })];
+    act(() => useSavingStore.setState({ state: { kind: 'conflict', conflicts } }));
+    expect(await screen.findByRole('alert')).toHaveTextContent('a.md could not be loaded');
+    answers[SAVE] = { revision: 6, files: [], actions: [], diagnostics: [] };
+    await button('Keep mine');
+    await waitFor(() => expect(screen.queryByRole('dialog')).toBeNull());
+    expect(text('a.md')).toBe('mine');
+  });
+
+  it('sends an own text that is empty in place of a large version, or of a deletion', async () => {
+    answers[SAVE] = { revision: 6, files: [], actions: [], diagnostics: [] };
+    openProject({ texts: { 'a.md': '', 'b.md': '' } });
+    show(<ConflictDialog />);
+    const mine = { content: '' };
+    const conflicts = [
+      conflict('a.md', { theirs: { revision: 5, content: null }, mine }),
+      conflict('b.md', { theirs: null, mine }),
+    ];
+    act(() => useSavingStore.setState({ state: { kind: 'conflict', conflicts } }));
+    await screen.findByRole('alert');
+    await button('Keep mine');
+    await screen.findByRole('dialog', { name: 'Two versions of b.md' });
+    await button('Keep mine');
+    await waitFor(() => expect(screen.queryByRole('dialog')).toBeNull());
+    await waitFor(() =>
+      expect(saved().flat()).toEqual([
+        { path: 'a.md', base_revision: 5, content: '' },
+        { path: 'b.md', base_revision: 0, content: '' },
+      ]),
+    );
+  });
+
+  it('does not offer the version of the server if that is binary: it would delete the file', async () => {
+    vi.stubGlobal('fetch', async () => new Response(new Uint8Array([0, 255]), { headers: {} }));
+    await open(conflict('a.md', { theirs: { revision: 5, content: null } }));
+    expect(screen.queryByRole('button', { name: "Take the server's" })).toBeNull();
+    expect(screen.getByRole('button', { name: 'Keep mine' })).toBeInTheDocument();
+  });
+
+  it('loads a version once for each project', async () => {
+    const fetched = vi.fn(async () => new Response('whole', { headers: { 'x-revision': '5' } }));
+    vi.stubGlobal('fetch', fetched);
+    const large = conflict('a.md', { theirs: { revision: 5, content: null } });
+    await open(large);
+    act(() => useProjectStore.setState({ projectId: 'another' }));
+    await waitFor(() => expect(fetched).toHaveBeenCalledTimes(2));
   });
 
   it.each([

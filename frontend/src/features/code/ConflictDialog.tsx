@@ -1,9 +1,12 @@
-import { Button, Group, Modal, Text } from '@mantine/core';
+import { Button, Group, Loader, Modal, Text } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
+import { useQuery } from '@tanstack/react-query';
 import { Suspense, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Conflict } from '@/api/types';
+import { useProjectStore } from '@/store/project';
 import { resolveConflict } from '@/store/saving/conflicts';
+import { fetchText } from '@/store/saving/large';
 import { useSavingStore } from '@/store/saving/store';
 import { lazyPart } from '@/ui/parts';
 import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
@@ -37,17 +40,65 @@ export function ConflictDialog() {
   );
 }
 
+/** Returns a conflict with the other version's text, which is loaded if it is large. */
+function useWhole(conflict: Conflict) {
+  const { path, theirs } = conflict;
+  const projectId = useProjectStore((state) => state.projectId);
+  const isLeftOut = theirs !== null && theirs.content === null;
+  const { data, error, refetch } = useQuery({
+    queryKey: ['conflict', projectId, path, theirs?.revision],
+    queryFn: ({ signal }) => fetchText(path, signal),
+    enabled: isLeftOut,
+    retry: false,
+  });
+  if (!isLeftOut) return { whole: conflict, error: null, refetch };
+  const whole = data && {
+    ...conflict,
+    theirs: { revision: data.revision || theirs.revision, content: data.text },
+  };
+  return { whole: whole ?? null, error, refetch };
+}
+
+const chooserOf = (conflict: Conflict, failed: string) => (text: string | null) => {
+  resolveConflict(conflict, text).catch((error: Error) =>
+    notifications.show({ color: 'red', title: failed, message: error.message }),
+  );
+};
+
 function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left: number }) {
+  const { t } = useTranslation('code');
+  const { whole, error, refetch } = useWhole(conflict);
+  const choose = chooserOf(conflict, t('conflict.failed'));
+  if (whole) return <Versions conflict={whole} left={left} />;
+  if (!error)
+    return <Loader size="sm" role="status" aria-label={t('large.loading', { path: conflict.path })} />;
+  return (
+    <Group>
+      <Text role="alert">{t('large.failed', { path: conflict.path, reason: error.message })}</Text>
+      <Button size="xs" variant="default" onClick={() => void refetch()}>
+        {t('large.retry')}
+      </Button>
+      <Button
+        size="xs"
+        variant="default"
+        data-testid="keep-mine"
+        onClick={() => choose(conflict.mine.content)}
+      >
+        {t('conflict.keepMine')}
+      </Button>
+    </Group>
+  );
+}
+
+function Versions({ conflict, left }: { readonly conflict: Conflict; readonly left: number }) {
   const { t } = useTranslation('code');
   const mine = conflict.mine.content;
   const theirs = conflict.theirs?.content ?? null;
   const merged = useRef(mine ?? '');
   const isNarrow = useIsNarrow();
-  const choose = (text: string | null) => {
-    resolveConflict(conflict, text).catch((error: Error) =>
-      notifications.show({ color: 'red', title: t('conflict.failed'), message: error.message }),
-    );
-  };
+  const choose = chooserOf(conflict, t('conflict.failed'));
+  // A binary file has no text that could be taken.
+  const isBinary = conflict.theirs !== null && theirs === null;
   return (
     <>
       <Text size="sm" c="dimmed" mb="sm">
@@ -71,9 +122,11 @@ function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left
         />
       </Suspense>
       <Group justify="flex-end" mt="md">
-        <Button variant="default" data-testid="take-theirs" onClick={() => choose(theirs)}>
-          {t('conflict.takeTheirs')}
-        </Button>
+        {isBinary ? null : (
+          <Button variant="default" data-testid="take-theirs" onClick={() => choose(theirs)}>
+            {t('conflict.takeTheirs')}
+          </Button>
+        )}
         <Button variant="default" data-testid="keep-mine" onClick={() => choose(mine)}>
           {t('conflict.keepMine')}
         </Button>

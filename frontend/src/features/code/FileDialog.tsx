@@ -7,6 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { documentName, kindOf } from '@/store/project/moving';
 import { openFile, openTree } from '@/store/project/navigation';
 import { treeIdOf } from '@/store/project/state';
+import { withAllPython } from '@/store/saving/large';
 import { nameProblem, pathFor } from './names';
 import {
   closeFileDialog,
@@ -59,8 +60,13 @@ function rename(path: string, name: string): void {
     );
     return;
   }
-  project.renameAction(documentName(path), name);
-  openFile(pathFor('action', name));
+  withAllPython().then(
+    () => {
+      project.renameAction(documentName(path), name);
+      openFile(pathFor('action', name));
+    },
+    (error: Error) => notifications.show({ color: 'red', message: error.message }),
+  );
 }
 
 function Form({ dialog }: { readonly dialog: NonNullable<Dialog> }) {

@@ -3,6 +3,7 @@ import type { TFunction } from 'i18next';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useLanguageStore, type LanguageState } from '@/store/language';
+import { waitingText } from './language/absence';
 import { retryLanguage } from './language/client';
 import { formatsOnSave, setFormatsOnSave } from './language/ruff';
 import classes from './code.module.css';
@@ -37,6 +38,7 @@ export function LanguageStatus({ path }: { readonly path: string }) {
 }
 
 function textOf(state: LanguageState, t: TFunction<'code'>): string {
+  if (state.kind === 'waiting') return waitingText(state);
   if (state.kind !== 'failed') return t(`language.${state.kind}`);
   const text = t('language.failed', { reason: state.reason || t('language.lost') });
   return state.willRetry ? `${text} ${t('language.retrying')}` : text;

@@ -17,12 +17,12 @@ class SourceSocket {
   static readonly OPEN = 1;
   static answers: Record<string, object> = {};
   readonly readyState = 1;
-  onopen: () => void = () => undefined;
   onmessage: (event: { data: string }) => void = () => undefined;
   onclose: (event: { code: number; reason: string }) => void = () => undefined;
 
   constructor() {
-    queueMicrotask(() => this.onopen());
+    const place = { method: 'bt/place', params: { before: null, is_own: false } };
+    queueMicrotask(() => this.onmessage({ data: JSON.stringify(place) }));
   }
 
   send(text: string): void {

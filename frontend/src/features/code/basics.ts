@@ -21,6 +21,7 @@ import { withoutFiles } from '@/model/copied';
 import { useProjectStore } from '@/store/project';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
+import { escapeClosesHover } from './language/hoverEscape';
 import { phrases } from './phrases';
 
 /** Returns the extensions of every text editor, for files and for a tree's XML; `keys` take precedence. */
@@ -38,6 +39,7 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     highlightActiveLine(),
     search({ top: true }),
     lintGutter(),
+    escapeClosesHover,
     editorTheme,
     phrases(),
     // Blocks that were copied from a canvas are pasted here as XML alone, without the files that they bring.

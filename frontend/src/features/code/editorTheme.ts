@@ -3,6 +3,14 @@ import { EditorView } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import './code.css';
 
+/** Documentation must not cover the page: what does not fit scrolls. */
+const SMALL = {
+  maxWidth: 'min(480px, 90vw)',
+  maxHeight: '260px',
+  overflow: 'auto',
+  overflowWrap: 'anywhere',
+} as const;
+
 /** The theme of the editor. Its colours are tokens, so that it serves both the light and the dark theme. */
 const look = EditorView.theme({
   '&': { height: '100%', color: 'var(--bts-text)', backgroundColor: 'var(--bts-surface)' },
@@ -37,7 +45,13 @@ const look = EditorView.theme({
     boxShadow: 'var(--bts-shadow-raised)',
   },
   // A finding stays next to the text when the documentation of the name arrives later.
-  '.cm-tooltip-hover': { display: 'flex', flexDirection: 'column' },
+  '.cm-tooltip-hover': { display: 'flex', flexDirection: 'column', ...SMALL },
+  '.cm-tooltip.cm-completionInfo': SMALL,
+  // The sections of a docstring are headings, which would be larger than the text of the page.
+  '.cm-lsp-documentation': {
+    '& h1, & h2, & h3': { fontSize: 'inherit', fontWeight: 600, margin: '6px 0 2px' },
+    '& ul, & ol': { margin: '2px 0', paddingInlineStart: '20px' },
+  },
   '.cm-tooltip-above .cm-tooltip-lint': { order: 1 },
   '.cm-tooltip-below .cm-tooltip-lint': { order: -1 },
   '.cm-tooltip-autocomplete ul li[aria-selected]': {

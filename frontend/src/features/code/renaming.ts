@@ -13,7 +13,9 @@ export async function renameDocument(path: string, name: string): Promise<void> 
     kindOf(path) === 'robot' ? file.replace(/^robots\/[^/]+/, `robots/${name}`) : to;
   const files = filesOf(path);
   const named = await withName(path, name);
-  const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
+  const binaries = await fetchBinaries(
+    files.filter((file) => ['binary', 'large'].includes(project.files[file]?.kind ?? '')),
+  );
   for (const file of files) {
     const text = project.currentText(file);
     if (text !== null) project.addFile(moved(file), file === path ? (named ?? text) : text);

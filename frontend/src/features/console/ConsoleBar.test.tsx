@@ -1,7 +1,8 @@
-import { screen } from '@testing-library/react';
+import { act, screen } from '@testing-library/react';
 import { beforeEach, expect, it, onTestFinished, vi } from 'vitest';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { basicPage } from '../../../harness/basicPage';
 import { show, user } from '../../../harness/testing';
 import { ConsoleBar } from './ConsoleBar';
 import { useConsoleFilter } from './filter';
@@ -53,4 +54,13 @@ it('removes the lines of the present, if it may', async () => {
   rerender(<ConsoleBar sources={sources} toEnd={null} mayClear />);
   await user.click(screen.getByRole('button'));
   expect(useSessionStore.getState().logs).toEqual([]);
+});
+
+it('is a search alone in the basic page, until a filter hides lines', () => {
+  basicPage();
+  show(<ConsoleBar sources={sources} toEnd={null} mayClear />);
+  expect(screen.queryAllByRole('combobox')).toEqual([]);
+  expect(screen.queryAllByRole('button')).toEqual([]);
+  act(() => useConsoleFilter.setState({ level: 'error' }));
+  expect(screen.getAllByRole('combobox')).toHaveLength(2);
 });

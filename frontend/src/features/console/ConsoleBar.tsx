@@ -4,6 +4,7 @@ import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
 import { useSessionStore } from '@/store/session/store';
+import { useIsBasic } from '@/store/viewMode';
 import classes from './console.module.css';
 import { LEVELS, useConsoleFilter, type ConsoleFilter } from './filter';
 
@@ -18,6 +19,8 @@ interface ConsoleBarProps {
 export const ConsoleBar = memo(function ConsoleBar({ sources, toEnd, mayClear }: ConsoleBarProps) {
   const { t } = useTranslation('console');
   const filter = useConsoleFilter();
+  // A filter that hides lines is always shown.
+  const isBasic = useIsBasic() && filter.source === 'all' && filter.level === 'info';
   return (
     <div className={classes['bar']}>
       <TextInput
@@ -30,22 +33,26 @@ export const ConsoleBar = memo(function ConsoleBar({ sources, toEnd, mayClear }:
         leftSection={<IconSearch size={14} />}
         onChange={(event) => useConsoleFilter.setState({ search: event.currentTarget.value })}
       />
-      <NativeSelect
-        size="xs"
-        value={filter.source}
-        aria-label={t('source')}
-        data={sources}
-        onChange={(event) =>
-          useConsoleFilter.setState({ source: event.currentTarget.value as ConsoleFilter['source'] })
-        }
-      />
-      <NativeSelect
-        size="xs"
-        value={filter.level}
-        aria-label={t('level')}
-        data={LEVELS.map((value) => ({ value, label: t(`levels.${value}`) }))}
-        onChange={(event) => useConsoleFilter.setState({ level: event.currentTarget.value as LogLevel })}
-      />
+      {isBasic ? null : (
+        <>
+          <NativeSelect
+            size="xs"
+            value={filter.source}
+            aria-label={t('source')}
+            data={sources}
+            onChange={(event) =>
+              useConsoleFilter.setState({ source: event.currentTarget.value as ConsoleFilter['source'] })
+            }
+          />
+          <NativeSelect
+            size="xs"
+            value={filter.level}
+            aria-label={t('level')}
+            data={LEVELS.map((value) => ({ value, label: t(`levels.${value}`) }))}
+            onChange={(event) => useConsoleFilter.setState({ level: event.currentTarget.value as LogLevel })}
+          />
+        </>
+      )}
       <span className={classes['spacer']} />
       {toEnd ? (
         <Tooltip label={t('toEnd')}>
@@ -54,15 +61,17 @@ export const ConsoleBar = memo(function ConsoleBar({ sources, toEnd, mayClear }:
           </ActionIcon>
         </Tooltip>
       ) : null}
-      <Tooltip label={t('clear')}>
-        <ActionIcon
-          aria-label={t('clear')}
-          disabled={!mayClear}
-          onClick={() => useSessionStore.setState({ logs: [] })}
-        >
-          <IconEraser size={16} />
-        </ActionIcon>
-      </Tooltip>
+      {isBasic ? null : (
+        <Tooltip label={t('clear')}>
+          <ActionIcon
+            aria-label={t('clear')}
+            disabled={!mayClear}
+            onClick={() => useSessionStore.setState({ logs: [] })}
+          >
+            <IconEraser size={16} />
+          </ActionIcon>
+        </Tooltip>
+      )}
     </div>
   );
 });

@@ -57,9 +57,11 @@ describe('ConsolePanel', () => {
     const openFile = vi.fn();
     setNavigator({
       openTree: vi.fn(),
+      showTree: vi.fn(() => true),
       aimAt: vi.fn(),
       renamed: vi.fn(),
       openTopics: vi.fn(),
+      focusField: vi.fn(),
       showFile: vi.fn(),
       openFile,
     });
@@ -95,6 +97,33 @@ describe('ConsolePanel', () => {
     expect(toEnd()).not.toBeNull();
     scroll(790, 900);
     expect(toEnd()).toBeNull();
+  });
+
+  it('follows the end if something else scrolls while a line is pressed, and stops if it is dragged', () => {
+    useSessionStore.setState(appendLogs(initialSession, [log('one'), log('two')]));
+    show();
+    const scroller = screen.getByRole('log');
+    const scroll = (top: number) => {
+      Object.defineProperties(scroller, {
+        scrollHeight: { value: 900, configurable: true },
+        clientHeight: { value: 100, configurable: true },
+        scrollTop: { value: top, configurable: true, writable: true },
+      });
+      fireEvent.scroll(scroller);
+    };
+    const toEnd = () => screen.queryByRole('button', { name: 'Follow the end' });
+    scroll(410);
+    fireEvent.pointerDown(screen.getByText('two'));
+    scroll(300);
+    expect(toEnd()).toBeNull();
+    fireEvent.pointerMove(screen.getByText('two'));
+    scroll(200);
+    expect(toEnd()).not.toBeNull();
+    fireEvent.pointerUp(scroller);
+    scroll(800);
+    fireEvent.pointerDown(scroller);
+    scroll(300);
+    expect(toEnd()).not.toBeNull();
   });
 
   it('does not scroll while a line is pressed', async () => {

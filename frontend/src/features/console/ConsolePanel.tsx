@@ -151,23 +151,30 @@ const HAND_MS = 1000;
 /** Tracks the user's pointer and keys on the lines. */
 function useHand() {
   const [isHeld, setHeld] = useState(false);
+  const isDragged = useRef(false);
   const lastMove = useRef(-Infinity);
   const move = () => {
     lastMove.current = performance.now();
   };
-  const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
+  const hold = ({ target, currentTarget }: PointerEvent) => {
     // The click follows this event, and must hit the pressed element.
     const release = () => setTimeout(() => setHeld(false));
     setHeld(true);
+    // The scroller itself is pressed at its scroll bar. A line that is pressed and not dragged scrolls nothing:
+    // what scrolls meanwhile is a search that ended, or a panel that became lower.
+    isDragged.current = target === currentTarget;
     for (const end of ['pointerup', 'pointercancel'])
-      ownerDocument.addEventListener(end, release, { once: true });
+      currentTarget.ownerDocument.addEventListener(end, release, { once: true });
+  };
+  const drag = () => {
+    isDragged.current = true;
   };
   return {
     /** Whether a finger or a mouse button is down: then the lines must not move. */
     isHeld,
     /** Returns whether the user is scrolling. */
-    isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,
-    onHand: { onPointerDown: hold, onWheel: move, onTouchMove: move, onKeyDown: move },
+    isScrolling: () => (isHeld && isDragged.current) || performance.now() - lastMove.current < HAND_MS,
+    onHand: { onPointerDown: hold, onPointerMove: drag, onWheel: move, onTouchMove: move, onKeyDown: move },
   };
 }
 

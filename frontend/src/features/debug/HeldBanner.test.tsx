@@ -76,7 +76,10 @@ it('has no buttons for a viewer, and warns of an outside robot', () => {
   set('viewer', { outside: true, cause: 'condition', why: 'the condition is wrong' });
   expect(screen.getAllByRole('button')).toHaveLength(1);
   expect(screen.getByTestId('held-banner')).toHaveTextContent('the condition is wrong');
-  expect(screen.getByTestId('held-banner')).toHaveTextContent('keeps moving');
+  expect(screen.getByTestId('held-banner')).toHaveTextContent(
+    'is wrong. The robot is not held: it keeps moving.',
+  );
+  expect(screen.getByTestId('held-banner')).not.toHaveTextContent('detach');
 });
 
 it('has no steps for a program that is followed: its protocol has none', () => {
@@ -84,6 +87,7 @@ it('has no steps for a program that is followed: its protocol has none', () => {
   show(<HeldBanner />);
   set('driver');
   expect(screen.getByTestId('debug-continue')).toBeInTheDocument();
+  expect(screen.getByTestId('held-banner')).toHaveTextContent('It waits until you continue or detach.');
   expect(screen.getAllByRole('button')).toHaveLength(2);
   const { commands } = useCommandTable.getState();
   const possible = ['continue', 'over', 'into', 'out', 'tick'].map((id) =>

@@ -52,8 +52,8 @@ function Banner({ held, node, tree }: BannerProps) {
         <button type="button" className={classes['place']} onClick={reveal} data-testid="held-node">
           {node.name}
         </button>{' '}
-        <span>{words(held)}</span>
-        {held.outside && <strong>{t('outside')} </strong>}
+        <span>{words(held)}</span> {held.outside && <strong>{t('outside')} </strong>}
+        {!canStep && <span>{t('heldUntil')} </span>}
         <small className={classes['path']} title={t('path')} data-testid="held-path">
           {path.join(' › ')}
         </small>

@@ -62,14 +62,14 @@ export function EditorFrame({ editor, testId, paths, problems, words, toolbar, c
   );
   if (paths.length === 0) {
     return (
-      <div className={classes['tab']} data-testid={`${testId}-text`}>
+      <div className={classes['tab']} tabIndex={-1} data-testid={`${testId}-text`}>
         {list}
         {text}
       </div>
     );
   }
   return (
-    <div className={classes['tab']} data-testid={testId} data-path={editor.path}>
+    <div className={classes['tab']} tabIndex={-1} data-testid={testId} data-path={editor.path}>
       {toolbar}
       <div className={classes['work']} data-text={isTextShown || undefined}>
         <div className={classes['stage']}>

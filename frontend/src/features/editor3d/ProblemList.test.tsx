@@ -1,8 +1,13 @@
+import { readFileSync } from 'node:fs';
 import { screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
+import { rewrite } from '@/model/document/rewrite';
 import type { DocumentProblem } from '@/model/document/yaml';
+import { readUniverse } from '@/model/universe/read';
+import { useProjectStore } from '@/store/project';
 import { openUniverse } from '../../../harness/documents';
 import { show, user, watchNavigation } from '../../../harness/testing';
+import { change, textsOf, travel } from './editing';
 import { ProblemList } from './ProblemList';
 
 const problem = (more: Partial<DocumentProblem> = {}): DocumentProblem => ({
@@ -80,5 +85,56 @@ describe('ProblemList', () => {
     expect(openFile).toHaveBeenCalledExactlyOnceWith('robots/mine/robot.urdf', 7);
     await user.click(gone!);
     expect(openFile).toHaveBeenCalledOnce();
+  });
+
+  it('writes what a problem says, and takes it back by one undo', async () => {
+    const editor = openUniverse();
+    const before = useProjectStore.getState().currentText(editor.path) ?? '';
+    change(editor, 'old', () => ({
+      texts: [rewrite(before, [{ kind: 'set', path: ['name'], value: true }])],
+    }));
+    const [issue] = readUniverse(textsOf(editor)[0] ?? '').problems;
+    expect(issue).toMatchObject({ kind: 'textWrite', params: { write: '"true"' } });
+    show(<ProblemList problems={issue ? [issue] : []} paths={ONE} title="1" editor={editor} />);
+    await user.click(screen.getByRole('button', { name: 'Write "true"' }));
+    expect(readUniverse(textsOf(editor)[0] ?? '')).toMatchObject({
+      universe: { name: 'true' },
+      problems: [],
+    });
+    travel(editor, 'undo');
+    expect(textsOf(editor)[0]).toContain('name: true');
+  });
+
+  it.each([
+    ['.5', 0.5],
+    ['5.', 5],
+    ['+5', 5],
+    ['007', 7],
+  ])('writes %s as the number %d, and keeps the focus', async (write, value) => {
+    const editor = openUniverse();
+    const issue = problem({ path: ['models', 1, 'mass'], params: { write } });
+    show(<ProblemList problems={[issue, problem()]} paths={ONE} title="2 problems" editor={editor} />);
+    await user.click(screen.getByRole('button', { name: `Write ${write}` }));
+    expect(textsOf(editor)[0]).toContain(`mass: ${value}`);
+    expect(screen.getByRole('region', { name: '2 problems' })).toHaveFocus();
+  });
+
+  it('leaves the focus to the editor with its last problem', async () => {
+    const editor = openUniverse();
+    const issue = problem({ path: ['models', 1, 'mass'], params: { write: '5' } });
+    show(
+      <div tabIndex={-1} data-testid="editor">
+        <ProblemList problems={[issue]} paths={ONE} title="1 problem" editor={editor} />
+      </div>,
+    );
+    await user.click(screen.getByRole('button', { name: 'Write 5' }));
+    expect(screen.getByTestId('editor')).toHaveFocus();
+  });
+
+  it('lets only the line of a problem look like a line: the repair is a button', () => {
+    const sheet = readFileSync('src/features/editor3d/editor3d.module.css', 'utf-8');
+    const rules = [...sheet.matchAll(/^\.problems [^{]*button[^{]*(?= \{)/gm)].map(([rule]) => rule);
+    expect(rules.length).toBeGreaterThan(0);
+    expect(rules.filter((rule) => !rule.includes('> button:first-child'))).toEqual([]);
   });
 });

@@ -3,6 +3,7 @@ import { IconCopyPlus, IconTrash, type IconBox } from '@tabler/icons-react';
 import { useEffect, useRef, useState, type KeyboardEvent, type MouseEvent, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
+import { useUnsaved } from '@/store/saving/useUnsaved';
 import classes from './editor3d.module.css';
 import { isReadOnly, select, toggle, type Editor } from './editing';
 
@@ -172,6 +173,7 @@ interface RenameProps {
 function Rename({ thing, problemOf, onName, onEnd }: RenameProps) {
   const { t } = useTranslation('editor3d');
   const [name, setName] = useState(thing.name);
+  useUnsaved(name !== thing.name);
   const problem = problemOf(name);
   const finish = () => {
     if (!problem) onName(name);

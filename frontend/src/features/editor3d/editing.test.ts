@@ -4,7 +4,9 @@ import { useProjectStore } from '@/store/project';
 import { lookOnly, openRobot, openUniverse, ROBOT, UNIVERSE, URDF } from '../../../harness/documents';
 import {
   change,
+  editorFor,
   followTexts,
+  restart,
   select,
   showIn,
   textsOf,
@@ -49,6 +51,49 @@ describe('an editor', () => {
     showIn(editor, null);
     expect(editor.view).toBeNull();
   });
+});
+
+describe('a large text', () => {
+  const large = (path: string) =>
+    useProjectStore.setState(({ files }) => ({
+      files: { ...files, [path]: { ...files[path]!, kind: 'large', text: null, savedText: null } },
+    }));
+  const arrives = (path: string, text: string) =>
+    useProjectStore.setState(({ files }) => ({
+      files: { ...files, [path]: { ...files[path]!, kind: 'text', text, savedText: text } },
+    }));
+
+  it.each([
+    [openRobot, ROBOT, URDF],
+    [openUniverse, UNIVERSE, UNIVERSE],
+  ])('is no undo step when it arrives', (open, path, file) => {
+    const first = open();
+    large(file);
+    // An editor that is made while the text is large.
+    useProjectStore.setState(({ projectId }) => ({ projectId: `${projectId ?? ''}-large` }));
+    const editor = editorFor(path, first.kind);
+    for (const each of [first, editor]) followTexts(each);
+    arrives(file, 'whole');
+    for (const each of [first, editor]) {
+      followTexts(each);
+      expect(labels(each)).toEqual([]);
+      travel(each, 'undo');
+    }
+    expect(textAt(file)).toBe('whole');
+    add(editor, 'one');
+    travel(editor, 'undo');
+    expect([textAt(file), labels(editor)]).toEqual(['whole', []]);
+  });
+});
+
+it('a document that was replaced as a whole begins again', () => {
+  const editor = openUniverse('a: 1\n');
+  select(editor, ['x']);
+  add(editor, 'one');
+  useProjectStore.getState().setFileText(UNIVERSE, 'b: 1\n');
+  restart(UNIVERSE);
+  restart('universes/unknown.yaml');
+  expect(state(editor)).toMatchObject({ selection: [], undoStack: { past: [], texts: ['b: 1\n'] } });
 });
 
 describe('a change', () => {

@@ -76,6 +76,8 @@ export interface Editor {
   readonly path: string;
   readonly kind: Kind;
   readonly store: StoreApi<EditorData>;
+  /** Whether the undo stack began with all texts: not while one of them is large and not loaded. */
+  isWhole: boolean;
   view: ViewHandle | null;
   /** null: there is no 3D view, so things are placed at once. */
   placer: Placer | null;
@@ -106,7 +108,7 @@ export function editorFor(path: string, kind: Kind): Editor {
       isTextShown: !hasWebGl(),
       shownText: 0,
     }));
-    editor = { path, kind, store, view: null, placer: null };
+    editor = { path, kind, store, isWhole: isLoaded(path, kind), view: null, placer: null };
     known.set(key, editor);
   }
   return editor;
@@ -116,6 +118,12 @@ function textsAt(path: string, kind: Kind): readonly string[] {
   const { currentText } = useProjectStore.getState();
   const first = currentText(path) ?? '';
   return [first, ...kind.pathsOf(first).map((other) => currentText(other) ?? '')];
+}
+
+/** Returns whether the page has all texts of a document: none of its files is large and not loaded. */
+function isLoaded(path: string, kind: Kind): boolean {
+  const { currentText, files } = useProjectStore.getState();
+  return [path, ...kind.pathsOf(currentText(path) ?? '')].every((each) => files[each]?.kind !== 'large');
 }
 
 /** Returns the current texts of a document. */
@@ -131,8 +139,31 @@ export function showIn(editor: Editor, view: ViewHandle | null, placer: Placer |
   editor.store.setState({ canPlace: placer !== null || !hasWebGl() });
 }
 
-/** Records changes from the text editor or from elsewhere as undo steps. */
+/** Begins the undo stack with the texts as they are now. */
+function begin(editor: Editor): void {
+  editor.isWhole = isLoaded(editor.path, editor.kind);
+  editor.store.setState({ undoStack: startUndo(textsOf(editor)), selection: [], waypoint: null });
+}
+
+/** Begins the undo stack of a document again, if it has an editor: its texts were replaced as a whole. */
+export function restart(path: string): void {
+  const editor = known.get(keyOf(path));
+  if (editor) begin(editor);
+}
+
+/**
+ * Records changes from the text editor or from elsewhere as undo steps. The arrival of a large text is none:
+ * nothing can be undone up to there.
+ */
 export function followTexts(editor: Editor): void {
+  if (!isLoaded(editor.path, editor.kind)) {
+    editor.isWhole = false;
+    return;
+  }
+  if (!editor.isWhole) {
+    begin(editor);
+    return;
+  }
   const { undoStack, selection } = editor.store.getState();
   const step = { label: 'text', mergeKey: 'text', before: selection, after: selection };
   const next = record(undoStack, textsOf(editor), step);

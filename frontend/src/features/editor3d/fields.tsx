@@ -2,6 +2,7 @@ import { ColorInput, NumberInput, TextInput } from '@mantine/core';
 import { useState, type ReactNode } from 'react';
 import { readable } from '@/model/document/readable';
 import { rounded } from '@/model/universe/geometry';
+import { useUnsaved } from '@/store/saving/useUnsaved';
 import { isReadOnly } from './editing';
 import classes from './editor3d.module.css';
 
@@ -35,6 +36,7 @@ export function NumberField({
   const shown = readable(value, isAngle ? '°' : '');
   const [draft, setDraft] = useState<{ of: number; text: string | number }>({ of: shown, text: shown });
   const text = draft.of === shown ? draft.text : shown;
+  useUnsaved(String(text) !== String(shown));
   const commit = (wish: string | number) => {
     const next = typeof wish === 'number' ? wish : Number.parseFloat(wish);
     if (Number.isFinite(next)) {
@@ -82,6 +84,7 @@ interface TextFieldProps {
 export function TextField({ label, value, testId, placeholder, problem, onCommit }: TextFieldProps) {
   const [draft, setDraft] = useState<{ of: string; text: string }>({ of: value, text: value });
   const text = draft.of === value ? draft.text : value;
+  useUnsaved(text !== value);
   const refused = text === value ? null : (problem?.(text) ?? null);
   const commit = () => {
     if (text !== value && !refused) onCommit(text);
@@ -135,11 +138,13 @@ interface ColorFieldProps {
 export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
   // The typed text is an invalid colour until its last digit.
   const [draft, setDraft] = useState<{ of: string; text: string }>({ of: value, text: value });
+  const text = draft.of === value ? draft.text : value;
+  useUnsaved(text !== value);
   return (
     <ColorInput
       size="xs"
       label={label}
-      value={draft.of === value ? draft.text : value}
+      value={text}
       format={value.length > 7 ? 'hexa' : 'hex'}
       swatches={SWATCHES}
       swatchesPerRow={6}

@@ -1,5 +1,6 @@
 import type { KeyboardEvent } from 'react';
 import { select, travel, type Editor, type Mode } from './editing';
+import { travelOrUndoImport } from './imported';
 
 const MODES: Readonly<Record<string, Mode>> = { m: 'move', r: 'turn', s: 'size' };
 
@@ -87,7 +88,7 @@ function withControl(key: string, acts: KeyActs): Act | undefined {
   const table: Readonly<Record<string, Act>> = {
     d: () => acts.duplicate(),
     a: (editor) => select(editor, acts.all()),
-    z: (editor, event) => travel(editor, event.shiftKey ? 'redo' : 'undo'),
+    z: (editor, event) => travelOrUndoImport(editor, event.shiftKey ? 'redo' : 'undo'),
     y: (editor) => travel(editor, 'redo'),
   };
   return table[key];
@@ -101,5 +102,5 @@ export function onPanelKey(editor: Editor, event: KeyboardEvent): void {
   if (isTyping || !isControl || (key !== 'z' && key !== 'y')) return;
   event.preventDefault();
   event.stopPropagation();
-  travel(editor, key === 'y' || event.shiftKey ? 'redo' : 'undo');
+  travelOrUndoImport(editor, key === 'y' || event.shiftKey ? 'redo' : 'undo');
 }

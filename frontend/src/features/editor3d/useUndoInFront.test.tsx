@@ -6,6 +6,7 @@ import { useTabs } from '@/workspace/tabs';
 import { lookOnly, openUniverse, UNIVERSE } from '../../../harness/documents';
 import { show } from '../../../harness/testing';
 import { change, type Editor } from './editing';
+import { recordImport, useImported } from './imported';
 import { useUndoInFront } from './useUndoInFront';
 
 function Tab({ editor }: { readonly editor: Editor }) {
@@ -46,6 +47,25 @@ describe('undo of the document in front', () => {
     act(() => undoTarget()?.travel('undo'));
     expect(useProjectStore.getState().currentText(UNIVERSE)).toBe('a: 1\n');
     expect(undoTarget()).toMatchObject({ canUndo: false, canRedo: true });
+  });
+
+  it('offers to take an import back while its texts are as they were', () => {
+    begin();
+    front(UNIVERSE);
+    const part = {
+      ...{ revision: 1, previous_revision: 1, path: UNIVERSE, name: 'hall', paths: [UNIVERSE], removed: [] },
+      ...{
+        report: { taken: [], assumed: [], left_out: [] },
+        test_drive: null,
+        can_simplify: false,
+        things: 1,
+      },
+    };
+    onTestFinished(() => useImported.setState({ step: null }));
+    act(() => recordImport(part, 'universe', { files: {}, settings: null }));
+    expect(undoTarget()).toMatchObject({ canUndo: true });
+    act(() => useProjectStore.getState().setFileText(UNIVERSE, 'a: 9\n'));
+    expect(undoTarget()).toMatchObject({ canUndo: false });
   });
 
   it('offers nothing in a read-only project', () => {

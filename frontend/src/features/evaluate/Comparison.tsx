@@ -20,7 +20,7 @@ interface Props {
 export function Comparison({ projectId, evaluation, mayReplay, onChoose }: Props) {
   const { t } = useTranslation('evaluate');
   const found = useComparison(projectId, evaluation);
-  if (found.isPending) return <Loader size={14} aria-label={t('compare.reading')} />;
+  if (found.isPending) return <Loader size={14} role="status" aria-label={t('compare.reading')} />;
   if (found.isError) return <p role="alert">{refusalText(t, found.error)}</p>;
   const { data } = found;
   return (

@@ -119,7 +119,9 @@ export function EvaluatePanel() {
           ) : null}
         </div>
         <div className={classes['main']}>
-          {all.found.isPending && isVisible ? <Loader size={16} aria-label={t('loading')} /> : null}
+          {all.found.isPending && isVisible ? (
+            <Loader size={16} role="status" aria-label={t('loading')} />
+          ) : null}
           {all.found.isError ? <p role="alert">{refusalText(t, all.found.error)}</p> : null}
           {mode === 'study' && study ? (
             <StudyResults study={study} onClose={() => setMode('results')} />

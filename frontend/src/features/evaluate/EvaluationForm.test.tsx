@@ -3,7 +3,8 @@ import { expect, it, vi } from 'vitest';
 import '@/i18n/editorTexts';
 import { firstEvaluation } from '@/model/evaluation/files';
 import { useProjectStore } from '@/store/project';
-import { openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { useLargeFiles } from '@/store/saving/large';
+import { fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { EvaluationForm } from './EvaluationForm';
 
 const PATH = 'evaluations/room.yaml';
@@ -40,4 +41,16 @@ it('leads to the text, and says so if the text has errors', async () => {
   expect(screen.getByRole('alert')).toHaveTextContent('The file has errors');
   await user.click(screen.getByRole('button', { name: 'Open the YAML beside' }));
   expect(openFile).toHaveBeenCalledWith(PATH, undefined);
+});
+
+it('says that a large file is loaded, and why it cannot be', async () => {
+  fakeServer({});
+  open();
+  act(() => {
+    const large = { path: PATH, kind: 'large', text: null, revision: 1, savedText: null } as const;
+    useProjectStore.setState(({ files }) => ({ files: { ...files, [PATH]: large } }));
+  });
+  expect(screen.getByLabelText(`${PATH} is loaded…`)).toBeInTheDocument();
+  expect(await screen.findByRole('alert')).toHaveTextContent(`${PATH} could not be loaded`);
+  useLargeFiles.setState({ failed: {} });
 });

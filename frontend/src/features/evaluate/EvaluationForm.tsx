@@ -2,6 +2,7 @@ import { ActionIcon, Alert, Button, Checkbox, Group, NumberInput, TextInput } fr
 import { notifications } from '@mantine/notifications';
 import { IconX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { LargeFile } from '@/features/code/LargeFile';
 import { UnwritableError } from '@/model/document/rewrite';
 import { evaluationPath } from '@/model/evaluation/files';
 import {
@@ -14,6 +15,7 @@ import {
   type EvaluationForm as Form,
 } from '@/model/evaluation/form';
 import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { openFile } from '@/store/project/navigation';
 import classes from './evaluate.module.css';
 
@@ -27,12 +29,14 @@ const NEW_VARIATION = { address: 'ground.friction', from: 0.5, to: 1 };
 export function EvaluationForm({ name, onClose }: { readonly name: string; readonly onClose: () => void }) {
   const { t } = useTranslation('evaluate');
   const path = evaluationPath(name);
-  const text = useProjectStore((state) => state.files[path]?.text ?? '');
+  const text = useFileText(path) ?? '';
+  const isLarge = useProjectStore(({ files }) => files[path]?.kind === 'large');
   const form = readForm(text);
   const change = (make: (text: string) => string) => {
     const { files, setFileText } = useProjectStore.getState();
     try {
-      setFileText(path, make(files[path]?.text ?? ''));
+      const before = files[path]?.text;
+      if (before !== undefined && before !== null) setFileText(path, make(before));
     } catch (error) {
       if (!(error instanceof UnwritableError)) throw error;
       notifications.show({ color: 'orange', message: t('form.unwritable') });
@@ -51,7 +55,13 @@ export function EvaluationForm({ name, onClose }: { readonly name: string; reado
           </Button>
         </Group>
       </div>
-      {form ? <Fields form={form} change={change} /> : <Alert color="orange">{t('form.unreadable')}</Alert>}
+      {isLarge ? (
+        <LargeFile path={path} />
+      ) : form ? (
+        <Fields form={form} change={change} />
+      ) : (
+        <Alert color="orange">{t('form.unreadable')}</Alert>
+      )}
     </div>
   );
 }

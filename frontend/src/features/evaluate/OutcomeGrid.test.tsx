@@ -3,6 +3,7 @@ import { expect, it, vi } from 'vitest';
 import '@/i18n/editorTexts';
 import { outcome, rowsOf } from '../../../harness/evaluations';
 import { show } from '../../../harness/testing';
+import { CELL_PX } from './cells';
 import { OutcomeGrid } from './OutcomeGrid';
 
 function open(chosen: number | null) {
@@ -35,6 +36,6 @@ it('begins with the first cell, and plays nothing that has not run', () => {
 
 it('chooses the cell that is clicked', () => {
   const { grid, onChoose } = open(null);
-  fireEvent.click(grid, { clientX: 30, clientY: 3 });
+  fireEvent.click(grid, { clientX: 2 * CELL_PX + 2, clientY: 3 });
   expect(onChoose).toHaveBeenCalledWith(12);
 });

@@ -7,9 +7,6 @@ import { CELL_PX, cellAfter, cellAt, columnsOf, draw, heightOf } from './cells';
 import classes from './evaluate.module.css';
 import { outcomeText } from './outcomeText';
 
-/** The least height of what is pressed. */
-const LEAST_PX = 24;
-
 interface Props {
   readonly first: number;
   readonly cells: number;
@@ -66,7 +63,7 @@ export function OutcomeGrid({ first, cells, rows, chosen, marked, onChoose, onPl
         role="slider"
         tabIndex={0}
         className={classes['cells']}
-        style={{ height: Math.max(height, LEAST_PX) }}
+        style={{ height }}
         aria-label={t('grid.label')}
         aria-valuemin={first}
         aria-valuemax={first + Math.max(cells - 1, 0)}

@@ -5,6 +5,9 @@ import classes from './evaluate.module.css';
 import { duration, percent } from './outcomeText';
 import { isLive } from './useEvaluations';
 
+/** The outcomes that count in the rate: the others say nothing of the project. */
+const COUNTED = ['success', 'failure', 'error', 'crashed', 'timeout'];
+
 interface Props {
   readonly evaluation: Evaluation;
   readonly side: EvaluationSide;
@@ -14,12 +17,14 @@ interface Props {
 export function RateBar({ evaluation, side }: Props) {
   const { t } = useTranslation('evaluate');
   const { done, wanted, rate, low, high, counts } = side;
+  const counted = COUNTED.reduce((sum, outcome) => sum + (counts[outcome] ?? 0), 0);
   const others = Object.entries(counts).filter(([outcome]) => outcome !== 'success');
   return (
     <div className={classes['rate']}>
       {done > 0 ? (
         <p className={classes['number']} data-testid="evaluation-rate">
           <strong>{percent(rate)}</strong>{' '}
+          {t('rate.words', { count: counted, successes: counts['success'] ?? 0, low: percent(low) })}{' '}
           <span className={classes['muted']}>
             {t(evaluation.sequential ? 'rate.sequence' : 'rate.interval', {
               low: percent(low),

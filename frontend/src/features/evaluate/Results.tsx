@@ -3,6 +3,7 @@ import { IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Evaluation, Outcome } from '@/api/evaluations';
+import { LeftOut } from './notes/LeftOut';
 import { CoverageButton } from '@/features/behaviourTests/CoverageButton';
 import { cellsOf } from './cells';
 import { Comparison } from './Comparison';
@@ -58,6 +59,7 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
           <pre>{linesText(t, evaluation.error)}</pre>
         </Alert>
       ) : null}
+      <LeftOut notes={evaluation.notes} />
       {evaluation.older !== null ? (
         <SegmentedControl
           size="xs"

@@ -3,6 +3,10 @@ import { outcome } from '../../../harness/evaluations';
 import { CELL_PX, cellAfter, cellAt, cellsOf, columnsOf, draw, heightOf } from './cells';
 
 describe('cells', () => {
+  it('are large enough to be pressed', () => {
+    expect(CELL_PX).toBeGreaterThanOrEqual(24 + 2);
+  });
+
   it('fill the width in rows', () => {
     expect(columnsOf(10 * CELL_PX + 3)).toBe(10);
     expect(columnsOf(0)).toBe(1);

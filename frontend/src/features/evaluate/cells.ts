@@ -1,7 +1,7 @@
 import type { Outcome, RunOutcome } from '@/api/evaluations';
 
-/** The side of a cell with its gap, in CSS pixels. */
-export const CELL_PX = 14;
+/** The side of a cell with its gap, in CSS pixels: a cell is a target of 24 by 24 (WCAG 2.2, 2.5.8). */
+export const CELL_PX = 26;
 const GAP_PX = 2;
 
 /** The colours of the outcomes; each has a shape of its own too. */
@@ -75,11 +75,12 @@ export function draw(
     const outcome = outcomeAt(index)?.outcome;
     context.fillStyle = colorOf(outcome ? COLORS[outcome] : '--bts-surface-3');
     const isSmall = outcome === 'invalid' || outcome === 'lost' || outcome === 'cancelled';
-    const inset = isSmall ? 3 : 0;
+    const inset = isSmall ? size / 4 : 0;
     context.fillRect(x + inset, y + inset, size - 2 * inset, size - 2 * inset);
     if (outcome && outcome !== 'success' && !isSmall) {
       context.fillStyle = colorOf('--bts-surface');
-      context.fillRect(x + 4, y + 4, size - 8, size - 8);
+      const hole = size / 3;
+      context.fillRect(x + hole, y + hole, size - 2 * hole, size - 2 * hole);
     }
     if (isMarked(index)) {
       context.strokeStyle = colorOf('--bts-text');

@@ -1,5 +1,13 @@
 import { Tooltip } from '@mantine/core';
-import { IconFileCode, IconFileText, IconGitFork, IconRobot, IconStar, IconWorld } from '@tabler/icons-react';
+import {
+  IconCloudOff,
+  IconFileCode,
+  IconFileText,
+  IconGitFork,
+  IconRobot,
+  IconStar,
+  IconWorld,
+} from '@tabler/icons-react';
 import { useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shippedDoc } from '@/i18n/shipped';
@@ -8,6 +16,7 @@ import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import type { Worst } from '@/store/problems/list';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
+import { useLargeFiles } from '@/store/saving/large';
 import { ExplorerMenu } from './ExplorerMenu';
 import classes from './explorer.module.css';
 import type { DocumentTab } from '@/workspace/documents';
@@ -35,6 +44,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
+  const isOffline = useLargeFiles((state) => state.failed[path]?.isOffline === true);
   const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
   const description = useProjectStore(
     ({ vocabulary }) => vocabulary.trees.get(treeId ?? '')?.description ?? '',
@@ -65,6 +75,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
         type="button"
         className={classes['open']}
         data-testid={`file-${path}`}
+        data-offline={isOffline || undefined}
         disabled={isBinary}
         title={description === '' ? path : `${path}\n${shippedDoc(treeId ?? '', description)}`}
         onContextMenu={onContextMenu}
@@ -72,6 +83,11 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
       >
         <Icon size={16} stroke={1.6} aria-hidden="true" />
         <span className={classes['name']}>{nameOf(path)}</span>
+        {isOffline ? (
+          <Tooltip label={t('explorer.notLoaded')}>
+            <IconCloudOff size={13} role="img" aria-label={t('explorer.notLoaded')} />
+          </Tooltip>
+        ) : null}
         {isMain ? (
           <Tooltip label={t('explorer.mainTree')}>
             <IconStar size={13} className={classes['star']} role="img" aria-label={t('explorer.mainTree')} />

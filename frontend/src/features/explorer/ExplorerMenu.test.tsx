@@ -32,6 +32,10 @@ describe('a right click, or the menu key', () => {
     await choose('Copy path');
     expect(writeText).toHaveBeenCalledExactlyOnceWith('notes/a.md');
     expect(await screen.findByText('The path is in the clipboard: notes/a.md')).toBeInTheDocument();
+    writeText.mockRejectedValueOnce(new Error('denied'));
+    fireEvent.contextMenu(screen.getByTestId('file-notes/a.md'));
+    await choose('Copy path');
+    expect(await screen.findByText(/The path is notes\/a\.md$/)).toBeInTheDocument();
     vi.unstubAllGlobals();
   });
 });

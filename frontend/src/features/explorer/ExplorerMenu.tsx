@@ -13,14 +13,17 @@ import {
   IconTrash,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import { setOffered } from '@/model/edits';
 import { isOffered } from '@/model/treeAttributes';
 import { openRename } from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { canDuplicate, duplicateDocument } from '@/store/project/duplicating';
+import { withTexts } from '@/store/saving/large';
 import { copyTree } from '@/store/project/edits/clipboard';
 import { treeIdOf } from '@/store/project/state';
 import { setScope } from '@/store/revisions/scope';
+import { copyText } from '@/ui/copying';
 import { PointTarget } from '@/ui/PointTarget';
 import { undoNotification } from '@/ui/undoNotification';
 import { showPanel } from '@/workspace/tabs';
@@ -54,7 +57,13 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
     setScope('file');
     showPanel('history');
   };
-  const duplicate = () => {
+  const duplicate = async () => {
+    try {
+      await withTexts([path]);
+    } catch (error) {
+      notifications.show({ color: 'red', message: reasonOf(error) });
+      return;
+    }
     const copy = duplicateDocument(path);
     if (copy === null) return;
     undoNotification({
@@ -73,10 +82,8 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
     if (role === 'viewer') return;
     notifications.show({ message: t(isInLibrary ? 'explorer.offeredNot' : 'explorer.offered', { name }) });
   };
-  const copyPath = async () => {
-    await navigator.clipboard.writeText(path);
-    notifications.show({ message: t('explorer.copied', { path }) });
-  };
+  const copyPath = () =>
+    copyText(path, { done: t('explorer.copied', { path }), failed: t('explorer.notCopied', { path }) });
 
   const label = t('explorer.moreFor', { name });
   const button = (
@@ -86,7 +93,13 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
   );
 
   return (
-    <Menu position={point ? 'bottom-start' : 'bottom-end'} opened={isOpened} onChange={onChange}>
+    <Menu
+      position={point ? 'bottom-start' : 'bottom-end'}
+      opened={isOpened}
+      onChange={onChange}
+      // A menu that fades out would jump from the point to its button meanwhile.
+      transitionProps={{ duration: 0 }}
+    >
       {point ? (
         <>
           <PointTarget {...point} label={label} onClose={() => onChange(false)} />
@@ -110,7 +123,11 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
         <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
           {t('explorer.rename')}
         </Menu.Item>
-        <Menu.Item disabled={!canDuplicate(path)} leftSection={<IconCopy size={16} />} onClick={duplicate}>
+        <Menu.Item
+          disabled={!canDuplicate(path)}
+          leftSection={<IconCopy size={16} />}
+          onClick={() => void duplicate()}
+        >
           {t('explorer.duplicate')}
         </Menu.Item>
         {isDiagram && treeId !== null ? (

@@ -1,5 +1,6 @@
 import { notifications } from '@mantine/notifications';
 import { undoNotification } from '@/ui/undoNotification';
+import { reasonOf } from '@/api/reason';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { documentName, filesOf, followDocument } from '@/store/project/moving';
@@ -16,7 +17,9 @@ export async function removeDocument(path: string): Promise<void> {
   try {
     // Undo needs the content of binary files, which the page does not have, so they are fetched before the
     // deletion.
-    const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
+    const binaries = await fetchBinaries(
+      files.filter((file) => ['binary', 'large'].includes(project.files[file]?.kind ?? '')),
+    );
     const texts = files.flatMap((file) => {
       const text = project.currentText(file);
       return text === null ? [] : [{ file, text }];
@@ -51,5 +54,5 @@ export async function removeDocument(path: string): Promise<void> {
 }
 
 function tell(error: unknown): void {
-  notifications.show({ color: 'red', message: error instanceof Error ? error.message : String(error) });
+  notifications.show({ color: 'red', message: reasonOf(error) });
 }

@@ -7,6 +7,7 @@ import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
 import { evaluationNames, isEvaluationName } from '@/model/evaluation/files';
 import { workflowOf } from '@/model/evaluation/workflow';
+import classes from './export.module.css';
 import type { Theme } from './palette';
 import { pngOf, saveAs, svgOf } from './picture';
 
@@ -87,35 +88,6 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
           >
             {t('cpp')}
           </Button>
-          <Button
-            component="a"
-            variant="default"
-            href={api.modelsUrl(projectId)}
-            download
-            data-testid="download-models"
-            leftSection={<IconFileTypeXml size={16} />}
-          >
-            {t('models')}
-          </Button>
-          <Button
-            component="a"
-            variant="default"
-            href={api.schemaUrl(projectId)}
-            download
-            data-testid="download-schema"
-            leftSection={<IconFileTypeXml size={16} />}
-          >
-            {t('schema')}
-          </Button>
-          <Button
-            variant="default"
-            data-testid="download-workflow"
-            title={t('workflowWhat')}
-            leftSection={<IconBrandGithub size={16} />}
-            onClick={workflow}
-          >
-            {t('workflow')}
-          </Button>
         </Group>
         <Text size="sm" fw={600} mt="xs">
           {t('picture')}
@@ -149,6 +121,40 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
             </Button>
           ))}
         </Group>
+        <details data-testid="more-downloads">
+          <summary className={classes['more']}>{t('more')}</summary>
+          <Group gap="sm" mt="xs">
+            <Button
+              component="a"
+              variant="default"
+              href={api.modelsUrl(projectId)}
+              download
+              data-testid="download-models"
+              leftSection={<IconFileTypeXml size={16} />}
+            >
+              {t('models')}
+            </Button>
+            <Button
+              component="a"
+              variant="default"
+              href={api.schemaUrl(projectId)}
+              download
+              data-testid="download-schema"
+              leftSection={<IconFileTypeXml size={16} />}
+            >
+              {t('schema')}
+            </Button>
+            <Button
+              variant="default"
+              data-testid="download-workflow"
+              title={t('workflowWhat')}
+              leftSection={<IconBrandGithub size={16} />}
+              onClick={workflow}
+            >
+              {t('workflow')}
+            </Button>
+          </Group>
+        </details>
       </Stack>
     </section>
   );

@@ -32,7 +32,7 @@ function open(diagnostics: readonly Diagnostic[] = [], proposal: Proposal = null
   show(<ImportReport projectId="p1" />);
 }
 
-beforeEach(() => useImportReport.setState({ projectId: null, file: '', proposal: null }));
+beforeEach(() => useImportReport.setState({ projectId: null, file: '', proposal: null, oneBlock: '' }));
 
 describe('ReportContents', () => {
   it('says what was imported, and that nothing is missing', async () => {
@@ -79,6 +79,15 @@ describe('ReportContents', () => {
 
   it.each(['walled_room', 'person_in_green', 'line', 'warehouse'])('has a reason for %s', (universe) => {
     expect(translates(`importReport:reason.${universe}`)).toBe(true);
+  });
+
+  it('says why a tree of py_trees is one block', () => {
+    open();
+    expect(screen.queryByTestId('one-block')).toBeNull();
+    act(() => announceImport('p1', 'robot.py', null, 'a class has no form'));
+    expect(screen.getByTestId('one-block')).toHaveTextContent(
+      /^The tree is one block here, since a class has no form\./,
+    );
   });
 
   it('offers another universe', async () => {

@@ -1,4 +1,4 @@
-import { Badge, Button, Group, ScrollArea, Stack, Text, UnstyledButton } from '@mantine/core';
+import { Badge, Button, Group, Stack, Text } from '@mantine/core';
 import { IconAlertTriangle, IconCircleCheck, IconPencil, IconWorld } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { closeImportReport, useImportReport } from '@/store/dialogs/importReport';
@@ -8,8 +8,9 @@ import { openAction } from '@/store/project/navigation';
 import type { ListedProblem } from '@/store/problems/list';
 import { openProblem } from '@/store/problems/open';
 import { useProblems } from '@/store/problems/useProblems';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import classes from './importReport.module.css';
+import { ReportSections, type ReportRow } from './ReportSections';
 
 /**
  * The code of a finding that an action is still the stub which the import made; it is at a block of this
@@ -37,6 +38,7 @@ export function ReportContents() {
   const files = useProjectStore((state) => state.files);
   const universe = useProjectStore((state) => state.settings?.universe ?? '');
   const proposal = useImportReport((state) => state.proposal);
+  const oneBlock = useImportReport((state) => state.oneBlock);
   const problems = useProblems().filter(({ severity }) => severity !== 'note');
   const stubs = problems.filter(({ code }) => code === STUB);
   const others = problems.filter(({ code }) => code !== STUB);
@@ -48,6 +50,8 @@ export function ReportContents() {
     closeImportReport();
     openUniverseChooser();
   };
+  const row = useRow();
+  const most = { count: SHOWN, more: (count: number) => t('more', { count }) };
   return (
     <Stack gap="md" data-testid="import-report">
       <Group gap="sm" aria-label={t('came')} role="group">
@@ -61,16 +65,23 @@ export function ReportContents() {
           {t('others', { count: paths.length - trees - actions })}
         </Badge>
       </Group>
+      {oneBlock ? (
+        <Text size="sm" data-testid="one-block">
+          {t('oneBlock', { reason: oneBlock })}
+        </Text>
+      ) : null}
       {problems.length === 0 ? (
         <Group gap="sm">
           <IconCircleCheck size={18} aria-hidden="true" />
           <Text size="sm">{t('fine')}</Text>
         </Group>
       ) : null}
-      <ScrollArea.Autosize mah="45vh">
-        <Rows heading={t('problems', { count: others.length })} rows={others} />
-        <Rows heading={t('stubs')} rows={stubs} />
-      </ScrollArea.Autosize>
+      <ReportSections
+        parts={[
+          { heading: t('problems', { count: others.length }), rows: others.map(row), most },
+          { heading: t('stubs'), rows: stubs.map(row), most },
+        ]}
+      />
       <Group gap="sm" wrap="nowrap">
         <IconWorld size={18} className={classes['icon'] ?? ''} aria-hidden="true" />
         <Text size="sm" className={classes['universe'] ?? ''}>
@@ -97,46 +108,29 @@ export function ReportContents() {
   );
 }
 
-function Rows({ heading, rows }: { readonly heading: string; readonly rows: readonly ListedProblem[] }) {
+/** Returns how a finding is shown: a stub by the name of its action. */
+function useRow(): (found: ListedProblem, index: number) => ReportRow {
   const { t } = useTranslation('importReport');
-  if (rows.length === 0) return null;
-  return (
-    <section className={classes['part']}>
-      <h3 className={classes['heading']}>{heading}</h3>
-      <ul className={classes['rows']}>
-        {rows.slice(0, SHOWN).map((row, index) => (
-          <li key={`${row.code}-${index}`}>
-            <Row row={row} />
-          </li>
-        ))}
-      </ul>
-      {rows.length > SHOWN ? (
-        <Text size="xs" c="dimmed">
-          {t('more', { count: rows.length - SHOWN })}
-        </Text>
-      ) : null}
-    </section>
-  );
-}
-
-function Row({ row }: { readonly row: ListedProblem }) {
-  const { t } = useTranslation('importReport');
-  const { message, hint } = useProblemText()(row.problem);
-  const stub = stubOf(row);
-  const family = useProjectStore((state) => stub && state.vocabulary.specs.get(stub)?.family);
-  const Icon = stub ? IconPencil : IconAlertTriangle;
-  return (
-    <UnstyledButton className={classes['row']} data-severity={row.severity} onClick={() => look(row)}>
-      <Icon size={16} aria-hidden="true" />
-      {stub ? (
+  const textOf = useProblemText();
+  const specs = useProjectStore((state) => state.vocabulary.specs);
+  return (found, index) => {
+    const { message, hint } = textOf(found.problem);
+    const stub = stubOf(found);
+    const [main, more] =
+      stub === undefined ? [message, hint] : [stub, t(`kind.${specs.get(stub)?.family ?? 'action'}`)];
+    const Icon = stub === undefined ? IconAlertTriangle : IconPencil;
+    return {
+      key: `${found.code}-${index}`,
+      text: more ? `${main} ${more}` : main,
+      icon: <Icon size={16} aria-hidden="true" />,
+      content: (
         <span>
-          <strong>{stub}</strong> <span className={classes['hint']}>{t(`kind.${family ?? 'action'}`)}</span>
+          {stub === undefined ? main : <strong>{main}</strong>}{' '}
+          <span className={classes['hint']}>{more}</span>
         </span>
-      ) : (
-        <span>
-          {message} <span className={classes['hint']}>{hint}</span>
-        </span>
-      )}
-    </UnstyledButton>
-  );
+      ),
+      severity: found.severity,
+      onOpen: () => look(found),
+    };
+  };
 }

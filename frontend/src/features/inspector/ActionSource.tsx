@@ -3,7 +3,7 @@ import { Suspense, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { create } from 'zustand';
 import { actionPath } from '@/store/project/state';
-import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { lazyPart } from '@/ui/parts';
 import { Section } from './Section';
 import classes from './Inspector.module.css';
@@ -19,7 +19,7 @@ export function ActionSource({ action }: { readonly action: string }) {
   const isOpen = useShown((state) => state.isOpen);
   const view = useRef<HTMLDivElement>(null);
   const path = actionPath(action);
-  const text = useProjectStore((state) => state.files[path]?.text ?? null);
+  const text = useFileText(path);
   if (text === null) return null;
   return (
     <Section

@@ -1,11 +1,13 @@
 import { act, screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { setCondition } from '@/model/edits';
+import { toggleBreakpoint } from '@/store/debug/breakpoints';
 import { useProjectStore } from '@/store/project';
 import { change } from '@/store/project/edits/blocks';
 import { useEditorStore } from '@/store/project/editor';
 import { useLiveStore } from '@/store/project/live';
 import { action, nodeOf, openProject, port, show, user, watchNavigation } from '../../../harness/testing';
+import { basicPage } from '../../../harness/basicPage';
 import { Inspector } from './Inspector';
 
 const drive = action('Drive', {
@@ -110,7 +112,8 @@ describe('Inspector', () => {
   });
 
   it('marks a port whose text is no value of its type', async () => {
-    await user.type(field('speed'), 'fast');
+    await user.click(field('speed'));
+    await user.paste('fast');
     expect(field('speed')).toBeInvalid();
     expect(field('count')).toBeValid();
     expect(screen.getByTestId('inspector')).toHaveTextContent(/fast/);
@@ -120,7 +123,7 @@ describe('Inspector', () => {
   });
 
   it('says that a required port is missing', async () => {
-    expect(screen.getByText(/int · required/)).toBeVisible();
+    expect(screen.getByText(/whole number · required/)).toBeVisible();
     await user.clear(field('count'));
     expect(field('count')).toBeInvalid();
   });
@@ -139,7 +142,8 @@ describe('Inspector', () => {
   });
 
   it('stores a comment', async () => {
-    await user.type(screen.getByLabelText('Comment'), 'slow');
+    await user.click(screen.getByLabelText('Comment'));
+    await user.paste('slow');
     expect(nodeOf('Main', 'a')?.comment).toBe('slow');
     await user.clear(screen.getByLabelText('Comment'));
     expect(nodeOf('Main', 'a')?.comment).toBeUndefined();
@@ -209,5 +213,38 @@ describe('Inspector', () => {
     act(() => {
       useLiveStore.getState().clear();
     });
+  });
+});
+
+describe('the basic page', () => {
+  beforeEach(() => {
+    basicPage();
+    openProject({
+      trees: { Main: { a: { type: 'Drive', ports: { count: '2' } } } },
+      actions: [drive],
+      selected: ['a'],
+    });
+    show(<Inspector />);
+  });
+
+  it('has the ports, and folds the rest', async () => {
+    expect(screen.getByTestId('port-count')).toBeInTheDocument();
+    expect(screen.queryByTestId('debug-section')).toBeNull();
+    expect(screen.queryByRole('group', { name: 'Colour' })).toBeNull();
+    await user.click(screen.getByText('More about this block'));
+    expect(await screen.findByTestId('debug-section')).toBeInTheDocument();
+  });
+
+  it('shows what a block has', () => {
+    act(() => change('condition', [setCondition('a', '_skipIf', 'x > 1')]));
+    expect(screen.getByTestId('inspector-more')).toHaveAttribute('open');
+    expect(screen.getByRole('button', { name: 'Remove Skip if' })).toBeInTheDocument();
+  });
+
+  it('shows the debugger of a block with a breakpoint', () => {
+    act(() => toggleBreakpoint('Main', 'a'));
+    expect(screen.getByTestId('debug-section')).toBeInTheDocument();
+    act(() => toggleBreakpoint('Main', 'a'));
+    expect(screen.queryByTestId('debug-section')).toBeNull();
   });
 });

@@ -11,7 +11,7 @@ import { FindingMenu } from '@/ui/FindingMenu';
 import { QuickFixes } from '@/ui/QuickFixes';
 import { ReasonPath } from '@/ui/ReasonPath';
 import { FaultOfRun } from './FaultOfRun';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import classes from './Inspector.module.css';
 
 interface NodeProblemsProps {

@@ -68,7 +68,7 @@ describe('PortField', () => {
 
   it('names the type, the direction and whether a value is required', () => {
     field({ type: 'string', direction: 'output', required: true });
-    expect(screen.getByText('string · out · required')).toBeVisible();
+    expect(screen.getByText('text · out · required')).toBeVisible();
   });
 
   it('steps a number by its last decimal, and ten times that with Shift', async () => {

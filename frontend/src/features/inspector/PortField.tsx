@@ -2,6 +2,7 @@ import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } from '@tabler/icons-react';
 import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { typeName } from '@/i18n/typeWords';
 import { keyIn } from '@/model/keys/entry';
 import { readPortText, type PortSpec } from '@/model/ports';
 import { typeLabel } from '@/model/values';
@@ -102,8 +103,8 @@ export function PortField(props: PortFieldProps) {
             {props.label ?? port.name}
           </span>
         )}
-        <span className={classes['portType']}>
-          {port.type !== 'any' && typeLabel(port.type)}
+        <span className={classes['portType']} title={port.type === 'any' ? undefined : typeLabel(port.type)}>
+          {port.type !== 'any' && typeName(port.type)}
           {port.direction !== 'input' && !isExtra && ` · ${t(`directions.${port.direction}`)}`}
           {port.required && ` · ${t('required')}`}
         </span>

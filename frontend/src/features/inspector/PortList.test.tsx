@@ -90,9 +90,9 @@ describe('a port that differs from that of the running program', () => {
     return within(screen.getByTestId('live-speed'));
   };
 
-  it('goes back to the saved value in one step of undo, and has the caret', async () => {
+  it('goes back to the value before in one step of undo, and has the caret', async () => {
     const live = await open();
-    await user.click(live.getByRole('button', { name: 'Back to the saved value' }));
+    await user.click(live.getByRole('button', { name: 'Back to the value before' }));
     expect(portsOf('a')).toEqual({ speed: '0.3', extra: 'e' });
     expect(screen.queryByTestId('live-speed')).toBeNull();
     expect(screen.getByTestId('port-speed')).toHaveFocus();

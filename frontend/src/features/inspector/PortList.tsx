@@ -15,7 +15,7 @@ import { liveKey } from '@/store/project/live';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { shownPort } from '@/store/session/values/shown';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
 import { keepPort } from '@/store/run/livePorts';
 import { usePortMarks } from '@/store/run/portMarks';

@@ -2,6 +2,7 @@ import { TextInput } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { canBePort } from '@/model/ports';
+import { useUnsaved } from '@/store/saving/useUnsaved';
 
 interface PortNameInputProps {
   /** The current name; empty for a new port. */
@@ -21,6 +22,7 @@ export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps
     field.current?.scrollIntoView({ block: 'nearest' });
   }, []);
   const [name, setName] = useState(before);
+  useUnsaved(name !== before);
   const isDone = useRef(false);
   const byKey = useRef(false);
   const finish = (result: string | null) => {

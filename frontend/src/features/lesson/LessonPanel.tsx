@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { currentLanguage } from '@/i18n';
 import { lessonPath } from '@/model/lesson/find';
 import { parseLesson } from '@/model/lesson/parse';
+import { LargeFile } from '@/features/code/LargeFile';
 import { useProjectStore } from '@/store/project';
 import { setOpensLessons, useLessons } from '@/workspace/lessons';
 import classes from './lesson.module.css';
@@ -19,6 +20,8 @@ export function LessonPanel() {
   const language = i18n.language.startsWith('es') ? 'es' : currentLanguage();
   const path = useProjectStore((state) => lessonPath(Object.keys(state.files), language));
   const text = useProjectStore((state) => (path === null ? null : state.currentText(path)));
+  const isLarge = useProjectStore((state) => path !== null && state.files[path]?.kind === 'large');
+  if (isLarge && path !== null) return <LargeFile path={path} />;
   return path === null || text === null ? <NoLesson /> : <Lesson key={path} text={text} />;
 }
 

@@ -4,7 +4,7 @@ import { Suspense, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { nameIn, type Arrival, type Choice } from '@/model/reuse';
 import { TreePicture } from '@/features/projects/TreePicture';
-import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { isInsertedInto } from '@/store/project/bringing';
 import { treeIdOf } from '@/store/project/state';
 import { lazyPart } from '@/ui/parts';
@@ -87,7 +87,7 @@ interface ContentProps {
  */
 function Content({ path, source, isClash }: ContentProps) {
   const { t } = useTranslation('library');
-  const mine = useProjectStore((state) => state.currentText(path));
+  const mine = useFileText(path);
   const isNarrow = useIsNarrow();
   if (isClash && mine !== null) {
     const labels = { before: t('arrivals.mine', { path }), after: t('arrivals.theirs', { path }) };

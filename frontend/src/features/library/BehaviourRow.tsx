@@ -1,12 +1,10 @@
 import { Badge, Button, Group, Text } from '@mantine/core';
-import { notifications } from '@mantine/notifications';
 import { IconChevronRight, IconPlus, IconRefresh } from '@tabler/icons-react';
 import { Suspense, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { bring } from '@/store/dialogs/arrivals';
-import { deliveryOf, insertBehaviour } from '@/store/project/library';
 import { TreePicture } from '@/features/projects/TreePicture';
 import { lazyPart } from '@/ui/parts';
+import { insertOffer } from './insertOffer';
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
 
@@ -27,18 +25,6 @@ export function BehaviourRow({ offer, namesProject = false, takenVersion }: Beha
   const [isUpdating, setUpdating] = useState(false);
   const isOld = takenVersion !== null && takenVersion !== offer.version;
   const files = Object.keys(offer.files);
-
-  const insert = () =>
-    bring({
-      ...deliveryOf(offer),
-      act: 'insert',
-      name: offer.id,
-      take: (plan) => {
-        const name = insertBehaviour(offer, plan);
-        const message = name === offer.id ? t('inserted', { name }) : t('renamed', { id: offer.id, name });
-        notifications.show({ message });
-      },
-    });
 
   return (
     <li className={classes['row']} data-testid={`behaviour-${offer.id}`}>
@@ -69,7 +55,7 @@ export function BehaviourRow({ offer, namesProject = false, takenVersion }: Beha
           data-testid={`insert-${offer.id}`}
           aria-label={t('insertNamed', { name: offer.id })}
           leftSection={<IconPlus size={13} aria-hidden="true" />}
-          onClick={insert}
+          onClick={() => insertOffer(offer)}
         >
           {t('insert')}
         </Button>

@@ -4,6 +4,7 @@ import { IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { takenIn } from '@/store/project/library';
 import { BehaviourRow } from './BehaviourRow';
 import classes from './library.module.css';
@@ -83,7 +84,7 @@ const holds = (texts: readonly (string | null)[], words: readonly string[]): boo
 /** The panel of reusable behaviours: the built-in library, and the trees of the user's projects. */
 export function Library() {
   const { t, i18n } = useTranslation('library');
-  const record = useProjectStore((state) => state.currentText('assets/library.json'));
+  const record = useFileText('assets/library.json');
   const [source, setSource] = useState(ALL);
   const [search, setSearch] = useState('');
   const [showsAll, setShowsAll] = useState(false);
@@ -128,7 +129,7 @@ export function Library() {
           />
         ) : null}
       </div>
-      {isLoading ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
+      {isLoading ? <Loader size="xs" m="md" role="status" aria-label={t('loading')} /> : null}
       {problems.map(({ message }) => (
         <Text key={message} size="sm" p="sm" c="red">
           {message}

@@ -1,9 +1,11 @@
 import { Button, Group, Modal, Stack, Text } from '@mantine/core';
 import type { TFunction } from 'i18next';
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { TextDifference } from '@/features/revisions/TextDifference';
-import { differencesOf, updateBehaviour, type Difference } from '@/store/project/library';
+import { useProjectStore } from '@/store/project';
+import { differencesOf, placesOf, updateBehaviour, type Difference } from '@/store/project/library';
+import { withTexts } from '@/store/saving/large';
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
 
@@ -35,10 +37,25 @@ function titleOf(t: TFunction<'library'>, { id, version, project }: Offer): stri
     : t('updateTitleOf', { name: id, project });
 }
 
+function isLoaded(offer: Offer): boolean {
+  const { files } = useProjectStore.getState();
+  return placesOf(offer).every((path) => files[path]?.kind !== 'large');
+}
+
 /** Shows the changes of an update before it is made. */
 export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
   const { t } = useTranslation('library');
-  const [differences] = useState(() => differencesOf(offer));
+  const [differences, setDifferences] = useState<readonly Difference[] | null>(() =>
+    isLoaded(offer) ? differencesOf(offer) : null,
+  );
+  const [failure, setFailure] = useState('');
+  useEffect(() => {
+    if (isLoaded(offer)) return;
+    withTexts(placesOf(offer)).then(
+      () => setDifferences(differencesOf(offer)),
+      (error: Error) => setFailure(error.message),
+    );
+  }, [offer]);
   return (
     <Modal
       opened
@@ -48,8 +65,9 @@ export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
       closeButtonProps={{ 'aria-label': t('cancel') }}
     >
       <Stack>
-        {differences.length === 0 ? <Text size="sm">{t('same')}</Text> : null}
-        {differences.map((difference) => (
+        {failure ? <Text role="alert">{failure}</Text> : null}
+        {differences?.length === 0 ? <Text size="sm">{t('same')}</Text> : null}
+        {differences?.map((difference) => (
           <FileDifference key={difference.path} difference={difference} />
         ))}
         <Group justify="flex-end">
@@ -58,6 +76,7 @@ export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
           </Button>
           <Button
             data-testid="confirm-update"
+            disabled={differences === null}
             onClick={() => {
               updateBehaviour(offer);
               onClose();

@@ -149,6 +149,19 @@ describe('useTreesOf', () => {
     expect(result.current.data?.[0]?.diagram).toMatchObject({ id: 'Patrol', root: 'n1' });
   });
 
+  it('fetches the actions that are left out of the project', async () => {
+    const large = { ...projectFile('actions/Turn.py', 1, ''), content: null, left_out: true };
+    const mesh = { ...projectFile('mesh.stl', 1, ''), content: null, left_out: true };
+    const turning = projectFile('trees/Patrol.json', 1, oneBlock('Patrol', 'Turn'));
+    fakeServer({
+      'GET /projects/p2': { ...detail, files: [large, mesh, turning] },
+      'GET /projects/p2/files/actions/Turn.py': new Response('class Turn: ...'),
+    });
+    const { result } = query(() => useTreesOf('p2'));
+    await waitFor(() => expect(result.current.data).toBeDefined());
+    expect(result.current.data?.[0]?.files).toMatchObject({ 'actions/Turn.py': 'class Turn: ...' });
+  });
+
   it('requests nothing without a project', () => {
     const { requests } = fakeServer({});
     const { result } = query(() => useTreesOf(null));

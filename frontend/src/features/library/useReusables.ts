@@ -116,8 +116,12 @@ export function useTreesOf(project: string | null) {
     queryKey: ['reusables', project],
     queryFn: async ({ signal }): Promise<Offer[]> => {
       const detail = await api.getProject(project ?? '', signal);
-      const texts = detail.files.flatMap(({ path, content }) => (content === null ? [] : [[path, content]]));
-      const files = Object.fromEntries(texts) as Record<string, string>;
+      const files: Record<string, string> = {};
+      for (const { path, content, left_out: isLeftOut } of detail.files) {
+        const isNeeded = isLeftOut && path.startsWith('actions/');
+        const text = isNeeded ? await api.fileText(detail.id, path, signal) : content;
+        if (text !== null) files[path] = text;
+      }
       return [...treesOf({ ...detail, project: detail.id, owner: null, files })];
     },
     enabled: project !== null,

@@ -3,7 +3,8 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { offer } from '@/store/project/offered';
 import { useEditorStore } from '@/store/project/editor';
-import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { action, fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { basicPage } from '../../../harness/basicPage';
 import { Palette } from './Palette';
 
 const nodes = () => Object.values(useProjectStore.getState().diagrams['Main']?.nodes ?? {});
@@ -54,7 +55,7 @@ describe('Palette', () => {
     expect(names()).toContain('Grasp');
     expect(names()).not.toContain('SeesDoor');
     await user.clear(search);
-    await user.type(search, 'the hand');
+    await user.paste('the hand');
     expect(names()).toEqual(['Grasp']);
     await user.type(search, 'x');
     expect(screen.getByText('No node has this name.')).toBeInTheDocument();
@@ -75,7 +76,8 @@ describe('Palette', () => {
   it('folds a group, until a search opens it', async () => {
     await user.click(group(/^Actions/));
     expect(screen.queryByRole('button', { name: 'Add Grasp' })).toBeNull();
-    await user.type(screen.getByLabelText('Search nodes'), 'Grasp');
+    await user.click(screen.getByLabelText('Search nodes'));
+    await user.paste('Grasp');
     expect(screen.getByRole('button', { name: 'Add Grasp' })).toBeInTheDocument();
   });
 
@@ -99,7 +101,7 @@ describe('Palette', () => {
     it('is written from a template and opened', async () => {
       const { openFile } = watchNavigation();
       expect(name()).toHaveFocus();
-      await user.type(name(), 'IsNear');
+      await user.paste('IsNear');
       await user.click(within(screen.getByRole('radiogroup')).getByRole('radio', { name: 'Condition' }));
       await user.click(create());
       expect(useProjectStore.getState().currentText('actions/IsNear.py')).toContain('class IsNear');
@@ -116,7 +118,8 @@ describe('Palette', () => {
     });
 
     it('cannot have the name of another block', async () => {
-      await user.type(name(), 'Sequence');
+      expect(name()).toHaveFocus();
+      await user.paste('Sequence');
       expect(screen.getByText('This name is already in use.')).toBeInTheDocument();
       expect(create()).toBeDisabled();
     });
@@ -126,4 +129,22 @@ describe('Palette', () => {
       expect(screen.queryByLabelText('Name of the action')).toBeNull();
     });
   });
+});
+
+it('shows the basic page the own blocks and six nodes, more on demand, and finds all of them', async () => {
+  basicPage();
+  openProject({
+    trees: { Main: { r: { type: 'Sequence', children: [] } }, Dock: { d: { type: 'AlwaysSuccess' } } },
+    actions: [action('Grasp')],
+  });
+  fakeServer({ 'GET /catalog/behaviours': [] });
+  show(<Palette />);
+  const six = ['Sequence', 'ReactiveSequence', 'Fallback', 'ReactiveFallback', 'Inverter'];
+  expect(names()).toEqual(['Grasp', 'Dock', ...six, 'RetryUntilSuccessful']);
+  await user.type(screen.getByLabelText('Search nodes'), 'Parallel');
+  expect(names()).toContain('Parallel');
+  await user.clear(screen.getByLabelText('Search nodes'));
+  expect(names()).not.toContain('Parallel');
+  await user.click(screen.getByRole('button', { name: 'More blocks…' }));
+  expect(names()).toContain('Parallel');
 });

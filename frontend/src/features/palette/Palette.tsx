@@ -1,4 +1,4 @@
-import { ActionIcon, TextInput, Tooltip } from '@mantine/core';
+import { ActionIcon, Button, TextInput, Tooltip } from '@mantine/core';
 import { IconPlus, IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -6,12 +6,30 @@ import { shippedChoice } from '@/i18n/shipped';
 import { allChoices, isNamed, type Choice } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
 import { useOfferedStore } from '@/store/project/offered';
+import { useIsBasic } from '@/store/viewMode';
 import { NewAction } from './NewAction';
 import { PaletteGroup } from './PaletteGroup';
+import { ReadyBehaviours } from './ReadyBehaviours';
 import classes from './Palette.module.css';
 
 const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin', 'ros', 'nav2'] as const;
 type Group = (typeof GROUPS)[number];
+
+/** The nodes with children that a first tree needs. */
+const BASIC: ReadonlySet<string> = new Set([
+  'Sequence',
+  'Fallback',
+  'ReactiveSequence',
+  'ReactiveFallback',
+  'Inverter',
+  'RetryUntilSuccessful',
+]);
+
+/** Returns the group of a block in a first project: what the project has itself, and the basic nodes. */
+function basicGroupOf({ spec }: Choice): 'own' | 'control' | null {
+  if (BASIC.has(spec.type)) return 'control';
+  return spec.source === 'action' || spec.family === 'subtree' ? 'own' : null;
+}
 
 function groupOf({ spec }: Choice): Group {
   if (spec.source === 'offered') return 'nav2';
@@ -29,6 +47,8 @@ export function Palette() {
   const offered = useOfferedStore((state) => state.specs);
   const [search, setSearch] = useState('');
   const [isNaming, setIsNaming] = useState(false);
+  const isBasic = useIsBasic();
+  const [showsMore, setShowsMore] = useState(false);
   const choices = useMemo(
     () => allChoices(tree === null ? null : { id: tree }, vocabulary, offered),
     [tree, vocabulary, offered],
@@ -38,6 +58,8 @@ export function Palette() {
       isNamed(choice, search.trim()) ||
       (search.length > 2 && shippedChoice(choice).toLowerCase().includes(search.toLowerCase())),
   );
+  // A search looks through all blocks.
+  const isShort = isBasic && !showsMore && search === '';
   return (
     <section className={classes['palette']} aria-label={t('label')} data-testid="palette">
       <div className={classes['head']}>
@@ -73,16 +95,37 @@ export function Palette() {
         />
       )}
       <div className={classes['groups']}>
-        {GROUPS.map((group) => (
-          <PaletteGroup
-            key={group}
-            title={t(`families.${group}`)}
-            choices={shown.filter((choice) => groupOf(choice) === group)}
-            isSearching={search !== ''}
-            startsFolded={group === 'nav2'}
-            {...(group === 'action' ? { empty: t('noActions') } : {})}
-          />
-        ))}
+        {isShort ? (
+          <>
+            <PaletteGroup
+              title={t('own')}
+              choices={shown.filter((choice) => basicGroupOf(choice) === 'own')}
+              isSearching={false}
+              empty={t('noActions')}
+            />
+            <ReadyBehaviours search="" />
+            <PaletteGroup
+              title={t('families.control')}
+              choices={shown.filter((choice) => basicGroupOf(choice) === 'control')}
+              isSearching={false}
+            />
+            <Button variant="subtle" size="compact-sm" m={8} onClick={() => setShowsMore(true)}>
+              {t('more')}
+            </Button>
+          </>
+        ) : (
+          GROUPS.map((group) => (
+            <PaletteGroup
+              key={group}
+              title={t(`families.${group}`)}
+              choices={shown.filter((choice) => groupOf(choice) === group)}
+              isSearching={search !== ''}
+              startsFolded={group === 'nav2'}
+              {...(group === 'action' ? { empty: t('noActions') } : {})}
+            />
+          ))
+        )}
+        {isBasic && !isShort ? <ReadyBehaviours search={search} /> : null}
         {shown.length === 0 && <p className={classes['nothing']}>{t('nothing')}</p>}
       </div>
       <p className={classes['hint']}>{t('hint')}</p>

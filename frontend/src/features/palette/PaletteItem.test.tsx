@@ -49,6 +49,19 @@ describe('PaletteItem', () => {
     expect(now.editor()).toMatchObject({ dragged: null, slot: null });
   });
 
+  it('shows no tooltip while it is dragged, and again afterwards', async () => {
+    show(<PaletteItem choice={dock} />);
+    const item = screen.getByTestId('palette-Dock');
+    await user.hover(item);
+    await screen.findByRole('tooltip');
+    fireEvent.pointerDown(item);
+    expect(screen.queryByRole('tooltip')).toBeNull();
+    fireEvent.dragEnd(item);
+    await user.unhover(item);
+    await user.hover(item);
+    expect(await screen.findByRole('tooltip')).toBeInTheDocument();
+  });
+
   it('shows its description in a tooltip', async () => {
     show(<PaletteItem choice={dock} />);
     await user.hover(screen.getByTestId('palette-Dock'));

@@ -5,6 +5,7 @@ import { shippedChoice } from '@/i18n/shipped';
 import type { Choice } from '@/model/choices';
 import { addHere } from '@/store/project/edits/blocks';
 import { setEditor } from '@/store/project/editor';
+import { usePressed } from '@/ui/hooks/usePressed';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Palette.module.css';
 
@@ -12,10 +13,12 @@ import classes from './Palette.module.css';
 export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choice: Choice }) {
   const { t } = useTranslation('palette');
   const { kind, spec, label } = choice;
+  const { isPressed, handlers } = usePressed();
   return (
     <Tooltip
       label={shippedChoice(choice)}
-      disabled={spec.summary === ''}
+      // The tip would hang over the canvas while the block is dragged.
+      disabled={spec.summary === '' || isPressed}
       position="right"
       openDelay={500}
       multiline
@@ -27,6 +30,7 @@ export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choi
         draggable
         data-testid={`palette-${kind.tree ?? kind.type}`}
         aria-label={t('add', { name: label })}
+        {...handlers}
         onClick={() => {
           addHere(kind);
         }}
@@ -37,6 +41,7 @@ export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choi
         }}
         onDragEnd={() => {
           setEditor({ dragged: null, slot: null });
+          handlers.onPointerLeave();
         }}
       >
         <FamilyTile type={spec.type} family={spec.family} size={22} />

@@ -9,7 +9,7 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { displayName } from '@/model/diagram';
-import { fixesFor } from '@/model/fixes';
+import { fileFixes, fixesFor, type Fix } from '@/model/fixes';
 import { goToFault } from '@/store/moment/looking';
 import { useExtent } from '@/store/moment/useExtent';
 import { useProjectStore } from '@/store/project';
@@ -19,7 +19,7 @@ import { useProblems } from '@/store/problems/useProblems';
 import { FindingMenu } from '@/ui/FindingMenu';
 import { QuickFixes } from '@/ui/QuickFixes';
 import { ReasonPath } from '@/ui/ReasonPath';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import classes from './problems.module.css';
 
 const ICONS = { error: IconCircleX, warning: IconAlertTriangle, note: IconInfoCircle };
@@ -63,7 +63,7 @@ function Row({ item }: { readonly item: ListedProblem }) {
   ]
     .filter(Boolean)
     .join(' · ');
-  const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : [];
+  const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : fixesOfFile(item);
   const path = item.problem.source === 'server' ? (item.problem.path ?? []) : [];
   const hasMoment = useExtent() !== null && item.isFault;
   const canSilence = node !== undefined && item.severity !== 'error' && !item.isFault;
@@ -101,6 +101,11 @@ function Row({ item }: { readonly item: ListedProblem }) {
       ) : null}
     </>
   );
+}
+
+function fixesOfFile({ file, line, problem }: ListedProblem): Fix[] {
+  if (file === null || problem.source !== 'server') return [];
+  return fileFixes(problem.code, file, line, problem.values);
 }
 
 /** Goes to the moment at which a fault of the run happened. */

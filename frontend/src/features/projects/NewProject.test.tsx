@@ -15,6 +15,7 @@ const template = (id: string) => ({
 });
 const onCreate = vi.fn();
 const onAttach = vi.fn();
+const onImport = vi.fn();
 
 function open(projects: number) {
   const items = Array.from({ length: projects }, (_, i) => summary(`p${i}`));
@@ -26,7 +27,7 @@ function open(projects: number) {
     <NewProject
       onCreate={onCreate}
       pending={null}
-      onImport={vi.fn()}
+      onImport={onImport}
       isImporting={false}
       onAttach={onAttach}
       importButton={{ current: null }}
@@ -58,6 +59,15 @@ describe('NewProject', () => {
     await user.click(fold);
     expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
     expect(fold).toHaveAttribute('aria-expanded', 'true');
+  });
+
+  it('takes the same file again, since an import may be declined or the file repaired', async () => {
+    open(0);
+    const field = document.querySelector('input[type="file"]') as HTMLInputElement;
+    const file = new File(['zip'], 'robot.zip', { type: 'application/zip' });
+    await user.upload(field, file);
+    await user.upload(field, file);
+    expect(onImport.mock.calls).toEqual([[file], [file]]);
   });
 
   it('asks for the address of a robot to follow', async () => {

@@ -3,6 +3,7 @@ import { IconChevronDown, IconChevronUp, IconPlus, IconRobot, IconUpload } from 
 import type { RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import { ExampleShelf } from './examples/ExampleShelf';
+import { chooseAgain } from '@/ui/drop/chooseAgain';
 import classes from './projects.module.css';
 import { TemplateCards } from './TemplateCards';
 import { isExample } from './examples/shelf';
@@ -10,10 +11,10 @@ import { useSortedTemplates } from './templates';
 import { useFold } from './useFold';
 
 /**
- * The files that can be imported: project zips of BT Studio and of JdeRobot, trees as XML, and projects of
- * Groot2.
+ * The files that can be imported: project zips of BT Studio and of JdeRobot, trees as XML, projects of Groot2,
+ * and Python files with a tree.
  */
-const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
+const IMPORTS = '.zip,.xml,.btproj,.py,application/zip,text/xml';
 /** The placeholders until the server answers: as many as the smallest number of cards. */
 const PLACES = [1, 2, 3];
 
@@ -69,7 +70,11 @@ export function NewProject({
           ) : null}
           <Tooltip label={t('importHint')} multiline maw={300} position="bottom-end">
             <div>
-              <FileButton accept={IMPORTS} onChange={(file) => file && onImport(file)}>
+              <FileButton
+                accept={IMPORTS}
+                inputProps={chooseAgain}
+                onChange={(file) => file && onImport(file)}
+              >
                 {(props) => (
                   <Button
                     {...props}

@@ -1,5 +1,6 @@
-import { cleanup, screen, waitFor } from '@testing-library/react';
+import { act, cleanup, screen, waitFor } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
+import { fetchAgain, queries } from '@/api/queries';
 import type { ProjectSummary } from '@/api/types';
 import { projectDetail } from '@/store/testing';
 import { refusal, summary } from '../../../harness/requests';
@@ -117,6 +118,20 @@ describe('ProjectList', () => {
     await user.click(await screen.findByRole('button', { name: 'Show 3 more' }));
     await waitFor(() => expect(cards()).toHaveLength(5));
     expect(screen.queryByTestId('more-projects')).toBeNull();
+  });
+
+  it('shows more also where a project is archived while they are on their way', async () => {
+    const next = list('', '-updated_at', 'current', 2);
+    const answers: Record<string, unknown> = {
+      [list()]: page([summary('a'), summary('b')], 3, 2),
+      [next]: new Promise(() => undefined),
+    };
+    const asked = open(answers);
+    await user.click(await screen.findByRole('button', { name: 'Show 1 more' }));
+    await waitFor(() => expect(asked()).toContain(next));
+    answers[next] = page([summary('c')], 3);
+    await act(() => fetchAgain(queries, ['projects']));
+    await waitFor(() => expect(cards()).toHaveLength(3));
   });
 
   it('reports why the list cannot be read, and tries again', async () => {

@@ -15,6 +15,8 @@ import { IconAlertTriangle, IconPlayerPlay, IconSearch } from '@tabler/icons-rea
 import { useState, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectShelf, ProjectSort } from '@/api/client';
+import { useShowMore } from '@/ui/hooks/useShowMore';
+import { ShowMore } from '@/ui/ShowMore';
 import { ProjectCard } from './ProjectCard';
 import classes from './projects.module.css';
 import { useProjects, type useProjectCommands } from './useProjects';
@@ -34,7 +36,8 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
   const [wanted] = useDebouncedValue(search.trim(), 200);
   const [shelf, setShelf] = useState<ProjectShelf>('current');
   const found = useProjects(wanted, sort, shelf);
-  const { data, error, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = found;
+  const { data, error, refetch, hasNextPage } = found;
+  const { showMore, isLoadingMore } = useShowMore(found, `${shelf} ${sort} ${wanted}`);
   const projects = data?.pages.flatMap((page) => page.items) ?? [];
   const total = data?.pages[0]?.total ?? 0;
   // A cached empty list may be outdated.
@@ -123,14 +126,14 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
       </div>
       {hasNextPage ? (
         <Center mt="lg">
-          <Button
+          <ShowMore
             variant="default"
             data-testid="more-projects"
-            loading={isFetchingNextPage}
-            onClick={() => void fetchNextPage()}
+            isLoading={isLoadingMore}
+            onClick={showMore}
           >
             {t('showMore', { count: total - projects.length })}
-          </Button>
+          </ShowMore>
         </Center>
       ) : null}
     </section>

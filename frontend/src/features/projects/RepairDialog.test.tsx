@@ -18,7 +18,7 @@ const onClose = vi.fn();
 const open = (...changes: Diagnostic[]) =>
   show(
     <RepairDialog
-      offer={{ file: new File([], 'tree.xml'), changes }}
+      offer={{ asked: { file: new File([], 'tree.xml'), repair: false }, changes }}
       onRepair={onRepair}
       onClose={onClose}
     />,

@@ -15,7 +15,7 @@ export function RepairDialog({ offer, onRepair, onClose }: Props) {
   return (
     <Modal opened={offer !== null} onClose={onClose} title={t('repair.title')} size="lg">
       <Text size="sm" mb="md">
-        {t('repair.text', { file: offer?.file.name ?? '', count: changes.length })}
+        {t('repair.text', { file: offer?.asked.file.name ?? '', count: changes.length })}
       </Text>
       <ScrollArea.Autosize mah="50vh" mb="md">
         <Table aria-label={t('repair.changes')} data-testid="repairs">

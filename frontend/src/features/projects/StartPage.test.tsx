@@ -62,9 +62,9 @@ describe('StartPage', () => {
   });
 
   it('imports a file that was chosen', async () => {
-    answers['POST /projects/import?filename=bump.zip'] = projectDetail(1, []);
+    answers['POST /projects/import?filename=bump.zip&order=ask'] = projectDetail(1, []);
     await open();
-    expect(field().accept).toBe('.zip,.xml,.btproj,application/zip,text/xml');
+    expect(field().accept).toBe('.zip,.xml,.btproj,.py,application/zip,text/xml');
     await user.upload(field(), file);
     await expect.poll(address).toBe('/projects/p1');
     expect(requests.at(-1)?.body).toBe(file);
@@ -81,7 +81,7 @@ describe('StartPage', () => {
   });
 
   it('imports a file that was dropped on it', async () => {
-    answers['POST /projects/import?filename=bump.zip'] = projectDetail(1, []);
+    answers['POST /projects/import?filename=bump.zip&order=ask'] = projectDetail(1, []);
     await open();
     const dataTransfer = { types: ['Files'], files: [file] };
     fireEvent.dragOver(window, { dataTransfer });
@@ -93,7 +93,7 @@ describe('StartPage', () => {
 
   it('offers to repair a file', async () => {
     const repair = { code: 'BT0740', severity: 'error', message: '', line: 3, column: 1 } as const;
-    answers['POST /projects/import?filename=bump.zip'] = refusal('Not well-formed.', {
+    answers['POST /projects/import?filename=bump.zip&order=ask'] = refusal('Not well-formed.', {
       diagnostics: [repair],
     });
     await open();

@@ -1,13 +1,14 @@
-import { Group, Loader, Overlay, Text } from '@mantine/core';
-import { IconUpload } from '@tabler/icons-react';
+import { Group, Loader, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { Suspense, useCallback, useEffect, useRef, useState } from 'react';
 import { closePalette, usePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
+import { SharedRightsNotice } from '@/features/accounts/SharedRightsNotice';
 import { UserMenu } from '@/features/accounts/UserMenu';
 import { AttachDialog } from '@/features/attached/AttachDialog';
 import { MyRuns } from '@/features/runs/MyRuns';
 import { isLog, openNewLog } from '@/features/runs/openNewLog';
+import { DropOverlay } from '@/ui/drop/DropOverlay';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { lazyPart } from '@/ui/parts';
@@ -15,6 +16,8 @@ import { LanguageMenu } from './LanguageMenu';
 import { NewProject } from './NewProject';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
+import { MainTreeDialog } from './MainTreeDialog';
+import { OrderDialog } from './OrderDialog';
 import { RepairDialog } from './RepairDialog';
 import { useFileDrop } from '@/ui/hooks/useFileDrop';
 import { useImport } from './useImport';
@@ -34,7 +37,8 @@ interface Props {
 export function StartPage({ loadStudio, loadAttached }: Props) {
   const { t } = useTranslation('projects');
   const actions = useProjectCommands();
-  const { importFile, isImporting, offer, repair, decline } = useImport();
+  const { importFile, isImporting, offer, repair, mainTrees, chooseMain, orders, chooseOrder, decline } =
+    useImport();
   const { t: ofRuns } = useTranslation('runs');
   const drop = useCallback(
     (file: File) => (isLog(file) ? void openNewLog(file, ofRuns) : importFile(file)),
@@ -66,14 +70,7 @@ export function StartPage({ loadStudio, loadAttached }: Props) {
 
   return (
     <div className={classes['page']}>
-      {isDropping ? (
-        <Overlay fixed zIndex={300} backgroundOpacity={0.5} blur={2} className={classes['dropOverlay']}>
-          <IconUpload size={40} />
-          <Text size="lg" fw={600}>
-            {t('dropHere')}
-          </Text>
-        </Overlay>
-      ) : null}
+      {isDropping ? <DropOverlay>{t('dropHere')}</DropOverlay> : null}
       <header className={classes['header']}>
         <Group gap={10}>
           <Logo size={28} />
@@ -88,6 +85,7 @@ export function StartPage({ loadStudio, loadAttached }: Props) {
         </Group>
       </header>
       <main className={classes['main']}>
+        <SharedRightsNotice />
         <NewProject
           onCreate={(template) => actions.create.mutate(template)}
           pending={pending}
@@ -107,6 +105,8 @@ export function StartPage({ loadStudio, loadAttached }: Props) {
       </main>
       <AttachDialog isOpen={isAttaching} onOpen={loadAttached} onClose={() => setAttaching(false)} />
       <RepairDialog offer={offer} onRepair={repair} onClose={decline} />
+      {mainTrees ? <MainTreeDialog offer={mainTrees} onChoose={chooseMain} onClose={decline} /> : null}
+      {orders ? <OrderDialog offer={orders} onChoose={chooseOrder} onClose={decline} /> : null}
       {isPaletteOpen ? (
         <Suspense fallback={null}>
           <CommandPalette />

@@ -1,6 +1,8 @@
-import { screen, waitFor } from '@testing-library/react';
-import { expect, it } from 'vitest';
+import { act, screen, waitFor } from '@testing-library/react';
+import { expect, it, vi } from 'vitest';
 import '@/i18n/editorTexts';
+import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
 import { useLines } from '@/store/python/lines';
 import { usePython } from '@/store/python/stop';
 import { stopInPython } from '../../../harness/pythonStop';
@@ -25,6 +27,35 @@ it('shows the stack and the variables of a frame', async () => {
   expect(usePython.getState().stop?.frame).toBe(1);
   expect(openFile).not.toHaveBeenCalled();
   expect(await python.answer('scopes', { scopes: [] })).toEqual({ frameId: 8 });
+});
+
+it('begins the stack with the blocks that led there', async () => {
+  const python = await stopInPython();
+  const reveal = vi.fn();
+  useProjectStore.setState({ reveal });
+  const node = (uid: number, name: string) => ({
+    uid,
+    parent: uid - 1,
+    type: 'Sequence',
+    kind: '',
+    name,
+    path: name,
+    node_id: `n${uid}`,
+    tree_id: 'Main',
+  });
+  show(<StopView />);
+  await python.answer('scopes', { scopes: [] });
+  expect(screen.queryByTestId('python-tree-path')).toBeNull();
+  act(() =>
+    useSessionStore.setState({
+      tree: [node(1, 'root'), node(2, 'Wiggle')],
+      heldInPython: { uid: 2 } as never,
+    }),
+  );
+  const [first] = screen.getAllByRole('listitem');
+  expect(first).toHaveTextContent('root › Wiggle');
+  await user.click(screen.getByTestId('python-tree-path'));
+  expect(reveal).toHaveBeenCalledWith('Main', 'n2');
 });
 
 it('evaluates an expression, offers completions, and watches it', async () => {

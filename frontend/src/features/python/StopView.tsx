@@ -2,7 +2,11 @@ import { ActionIcon, Button } from '@mantine/core';
 import { IconPlus, IconTrash } from '@tabler/icons-react';
 import { useEffect, useId, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { TreeNode } from '@/generated/messages';
+import { nameOf } from '@/features/why/sentence';
+import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
+import { useSessionStore } from '@/store/session/store';
 import { toggleWatch, useLines } from '@/store/python/lines';
 import {
   chooseFrame,
@@ -49,6 +53,7 @@ function Stack({ stop }: { readonly stop: Stop }) {
     <div className={classes['column']}>
       <h2>{t('python.stack')}</h2>
       <ol className={classes['list']}>
+        <TreePath />
         {stop.frames.map(({ id, name, path, line }, at) => (
           <li key={id}>
             <button
@@ -66,6 +71,28 @@ function Stack({ stop }: { readonly stop: Stop }) {
         ))}
       </ol>
     </div>
+  );
+}
+
+/** The blocks that led to the held code, before the calls within it; a press shows the last one. */
+function TreePath() {
+  const uid = useSessionStore(({ heldInPython }) => heldInPython?.uid ?? 0);
+  const tree = useSessionStore((state) => state.tree);
+  const path: TreeNode[] = [];
+  for (let node = tree[uid - 1]; node; node = tree[node.parent - 1]) path.unshift(node);
+  const held = path.at(-1);
+  if (!held) return null;
+  return (
+    <li>
+      <button
+        type="button"
+        className={classes['frame']}
+        data-testid="python-tree-path"
+        onClick={() => useProjectStore.getState().reveal(held.tree_id, held.node_id)}
+      >
+        {path.map(nameOf).join(' › ')}
+      </button>
+    </li>
   );
 }
 

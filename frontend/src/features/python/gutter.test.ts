@@ -42,6 +42,20 @@ it('sets and removes a breakpoint at the line of the cursor by F9', () => {
   expect([lines(), looks()]).toEqual([[], []]);
 });
 
+it.each(['cm-breakpoints', 'cm-lineNumbers'])(
+  'sets a breakpoint by a press in %s, with the first button alone',
+  (gutter) => {
+    const press = (button: number) =>
+      view.dom
+        .querySelector(`.${gutter}`)!
+        .dispatchEvent(new MouseEvent('mousedown', { button, bubbles: true, cancelable: true }));
+    press(2);
+    expect(lines()).toEqual([]);
+    press(0);
+    expect(lines()).toHaveLength(1);
+  },
+);
+
 it('shows breakpoints that are conditional, log, cannot hold, or are off', () => {
   [1, 2, 3, 4].forEach((line) => toggleLine(PATH, line));
   toggleLine('actions/Go.py', 1);

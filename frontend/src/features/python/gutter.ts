@@ -6,6 +6,7 @@ import {
   GutterMarker,
   hoverTooltip,
   keymap,
+  lineNumbers,
   ViewPlugin,
   type ViewUpdate,
 } from '@codemirror/view';
@@ -141,18 +142,25 @@ const follow = (path: string) =>
     },
   );
 
-const dots = (path: string) =>
-  gutter({
-    class: 'cm-breakpoints',
-    markers: (view) => view.state.field(marks).dots,
-    initialSpacer: () => new Dot(0, 'off', ''),
-    domEventHandlers: {
-      mousedown(view, { from }) {
-        toggleLine(path, view.state.doc.lineAt(from).number);
-        return true;
-      },
+/** The dots, and the numbers of the lines beside them: a press on either sets and removes a breakpoint. */
+const dots = (path: string) => {
+  const domEventHandlers = {
+    mousedown(view: EditorView, { from }: { readonly from: number }, event: Event): boolean {
+      if ((event as MouseEvent).button !== 0) return false;
+      toggleLine(path, view.state.doc.lineAt(from).number);
+      return true;
     },
-  });
+  };
+  return [
+    gutter({
+      class: 'cm-breakpoints',
+      markers: (view) => view.state.field(marks).dots,
+      initialSpacer: () => new Dot(0, 'off', ''),
+      domEventHandlers,
+    }),
+    lineNumbers({ domEventHandlers }),
+  ];
+};
 
 /** Returns the name, with its attributes, that a text has around a place. */
 export function nameAround(text: string, at: number): { from: number; to: number; name: string } | null {
@@ -205,7 +213,8 @@ export function pythonBreakpoints(path: string): Extension {
       },
     ]),
     EditorView.theme({
-      '.cm-breakpoints': { width: '16px', cursor: 'pointer' },
+      '.cm-breakpoints': { width: '16px' },
+      '.cm-breakpoints, .cm-lineNumbers': { cursor: 'pointer' },
       '.cm-breakpoint': {
         display: 'block',
         boxSizing: 'border-box',

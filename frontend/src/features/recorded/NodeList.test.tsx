@@ -14,7 +14,7 @@ const shown = {
   statuses: [[1, 'RUNNING']],
   flashes: [[2, 'FAILURE']],
   was: [],
-  isHalted: false,
+  halted: null,
 } as unknown as Moment;
 
 it('lists the nodes that ran with what they did', () => {

@@ -15,7 +15,10 @@ export function NodeList({ tree }: { readonly tree: readonly TreeNode[] }) {
   const scroller = useRef<HTMLDivElement>(null);
   const depths = useMemo(() => depthsOf(tree), [tree]);
   const statuses = useMemo(() => new Map(shown?.statuses), [shown]);
-  const flashes = useMemo(() => new Map(shown?.flashes), [shown]);
+  const passed = useMemo(() => {
+    const { statuses: before = [], flashes = [] } = shown?.halted ?? {};
+    return new Map([...before, ...flashes, ...(shown?.flashes ?? [])]);
+  }, [shown]);
   // The virtualizer has mutable state, so the compiler must not memoise this component.
   // eslint-disable-next-line react-hooks/incompatible-library
   const virtual = useVirtualizer({
@@ -40,7 +43,7 @@ export function NodeList({ tree }: { readonly tree: readonly TreeNode[] }) {
           if (!node) return null;
           // A result that did not stay is shown rather than the IDLE after it.
           const now = statuses.get(node.uid);
-          const status: NodeStatus = now ?? flashes.get(node.uid) ?? 'IDLE';
+          const status: NodeStatus = now ?? passed.get(node.uid) ?? 'IDLE';
           return (
             <li
               key={node.uid}

@@ -5,7 +5,9 @@ import type { Revision } from '@/api/revisions';
 import { useTabs } from '@/workspace/tabs';
 import { openTab } from '@/workspace/tabs';
 import { treePath } from '@/store/project/state';
+import { useShowMore } from '@/ui/hooks/useShowMore';
 import { useVisible } from '@/ui/hooks/useVisible';
+import { ShowMore } from '@/ui/ShowMore';
 import { useComparison } from './compare';
 import { groupRevisions, type RevisionGroup } from './groups';
 import classes from './revisions.module.css';
@@ -23,6 +25,7 @@ export function RevisionsPanel() {
   const file = front?.kind === 'tree' ? treePath(front.id) : front?.kind === 'file' ? front.path : null;
   const path = scope === 'file' && file !== null ? file : '';
   const history = useRevisions(path, isVisible);
+  const { showMore, isLoadingMore } = useShowMore(history, path);
   const groups = groupRevisions(history.items);
   const isAlone = new Set(history.items.map((item) => item.author)).size <= 1;
   const name =
@@ -64,14 +67,9 @@ export function RevisionsPanel() {
         ))}
         {history.hasNextPage ? (
           <li className={classes['more']}>
-            <Button
-              size="compact-sm"
-              variant="light"
-              loading={history.isFetchingNextPage}
-              onClick={() => void history.fetchNextPage()}
-            >
+            <ShowMore size="compact-sm" variant="light" isLoading={isLoadingMore} onClick={showMore}>
               {t('more')}
-            </Button>
+            </ShowMore>
           </li>
         ) : null}
       </ol>

@@ -1,4 +1,5 @@
 import { notifications } from '@mantine/notifications';
+import { reasonOf } from '@/api/reason';
 import { t } from '@/i18n';
 import { undoNotification } from '@/ui/undoNotification';
 import { restoreRevision } from '@/store/revisions/restore';
@@ -17,7 +18,7 @@ export async function restore(number: number, paths: readonly string[]): Promise
       undo: () => void restore(previous, paths),
     });
   } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
+    const message = reasonOf(error);
     notifications.show({ color: 'red', title: t('revisions:restoreFailed'), message });
   }
 }

@@ -7,6 +7,7 @@ import {
   showRobot,
   stl,
   takesFile,
+  type,
   URDF,
   write,
 } from '../../../harness/documents';
@@ -147,8 +148,7 @@ describe('the fields of a body', () => {
     const { bodies } = fields('base_link', { texts });
     const color = screen.getByRole('textbox', { name: 'Colour' });
     expect(color).toHaveValue('#3fff00');
-    await user.clear(color);
-    await user.type(color, '#ff0000');
+    await type(color, '#ff0000');
     expect(bodies()[0]!.visual?.color).toEqual([1, 0, 0, 0.5]);
   });
 

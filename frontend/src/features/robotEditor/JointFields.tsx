@@ -71,7 +71,7 @@ export function JointFields({ editor, robot, joint }: JointFieldsProps) {
 
 function Motion({ editor, robot, joint }: JointFieldsProps) {
   const { t } = useTranslation('robotEditor');
-  const { name, type, axis, limits } = joint;
+  const { name, type, writtenAxis: axis, limits } = joint;
   const motor = motorOf(robot, name);
   const factor = type === 'prismatic' ? 1 : DEGREES;
   const unit = type === 'prismatic' ? 'm' : '°';

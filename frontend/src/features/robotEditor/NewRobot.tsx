@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
+import { FromFile } from '@/features/editor3d/FromFile';
 import { takenRobots } from '@/features/universe/freeNames';
 import { titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
@@ -16,6 +17,7 @@ export function NewRobot() {
   const base = useNewRobot((state) => state.base);
   return (
     <CopyDialog title={t('new.title')} isOpen={base !== null} onClose={closeNewRobot}>
+      <FromFile kind="robot" onLeave={closeNewRobot} />
       <Form first={base ?? ''} />
     </CopyDialog>
   );
@@ -35,7 +37,7 @@ function Form({ first }: { readonly first: string }) {
   const files = useProjectStore((state) => state.files);
   const robots = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
   const taken = takenRobots(Object.keys(files));
-  if (robots.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
+  if (robots.isPending) return <Loader size="sm" role="status" aria-label={t('new.loading')} />;
   return (
     <CopyForm
       items={[

@@ -4,6 +4,7 @@ import { select } from '@/features/editor3d/editing';
 import robotYaml from '@/model/robot/template/robot.yaml?raw';
 import robotUrdf from '@/model/robot/template/robot.urdf?raw';
 import { useProjectStore } from '@/store/project';
+import { type, write } from '../../../harness/documents';
 import { openProject, show, user } from '../../../harness/testing';
 import { editorOf, readingOf, type RobotEditor } from './editor';
 import { RobotPanel } from './RobotPanel';
@@ -21,12 +22,6 @@ function Panel() {
 }
 
 const robot = () => readingOf(editor).robot!;
-
-async function type(testId: string, text: string) {
-  await user.clear(screen.getByTestId(testId));
-  await user.type(screen.getByTestId(testId), text);
-}
-const write = (testId: string, text: string) => type(testId, `${text}{Enter}`);
 
 beforeEach(() => {
   openProject({ texts: { [PATH]: robotYaml, 'robots/mine/robot.urdf': robotUrdf } });

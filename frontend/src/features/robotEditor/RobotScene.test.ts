@@ -108,7 +108,7 @@ describe('RobotScene', () => {
   it.each(['meshes/a.stl', './meshes/a.stl', 'package://mine/meshes/a.stl', 'file://meshes/a.stl'])(
     'finds the mesh %s in the folder of the URDF',
     async (name) => {
-      openProject({});
+      openProject({ texts: { 'robots/mine/meshes/a.stl': '' } });
       fakeServer({ 'GET /projects/p1/files/robots/mine/meshes/a.stl': new Response(stl(1)) });
       const urdf = robotUrdf.replace(
         '<box size="0.3 0.22 0.1"/>',

@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { EditorFrame } from '@/features/editor3d/EditorFrame';
 import { EditorToolbar } from '@/features/editor3d/EditorToolbar';
+import { LargeFile } from '@/features/code/LargeFile';
 import { followTexts } from '@/features/editor3d/editing';
 import { readRobot } from '@/model/robot/read';
 import { useProjectStore } from '@/store/project';
@@ -18,12 +19,14 @@ export function RobotTab({ path }: { readonly path: string }) {
   const yaml = useProjectStore((state) => state.currentText(path));
   const urdfPath = urdfPathOf(path, yaml ?? '');
   const urdf = useProjectStore((state) => (urdfPath === null ? null : state.currentText(urdfPath)));
+  const isLarge = useProjectStore((state) => urdfPath !== null && state.files[urdfPath]?.kind === 'large');
   const { robot, problems } = useMemo(() => readRobot(yaml ?? '', urdf), [yaml, urdf]);
 
   useEffect(() => {
     if (yaml !== null) followTexts(editor);
   }, [editor, yaml, urdf]);
 
+  if (isLarge && urdfPath !== null) return <LargeFile path={urdfPath} />;
   const paths = [...(yaml === null ? [] : [path]), ...(urdf === null || urdfPath === null ? [] : [urdfPath])];
   return (
     <EditorFrame

@@ -11,7 +11,7 @@ const LARGEST_M = 3;
 const MILLIMETRE = 0.001;
 
 /** Returns the folder of the URDF, to which mesh names are relative. */
-export function urdfFolder({ path }: RobotEditor): string {
+export function urdfFolder({ path }: Pick<RobotEditor, 'path'>): string {
   const urdf = urdfPathOf(path, useProjectStore.getState().currentText(path) ?? '') ?? path;
   return urdf.slice(0, urdf.lastIndexOf('/') + 1);
 }

@@ -1,5 +1,5 @@
-import { screen } from '@testing-library/react';
-import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import { act, screen } from '@testing-library/react';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { State } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
@@ -66,7 +66,7 @@ describe('ExecutorState', () => {
     expect(state()).toHaveTextContent(/^Running$/);
   });
 
-  it('distinguishes a fault from a stop by hand, and shows the seconds of a hanging tick', () => {
+  it('distinguishes a fault from a stop by hand, and shows the seconds of a silence', () => {
     const finished = { status: 'IDLE', message: '', node_id: '', tree_id: '', node_path: '' } as const;
     const words = (change: Partial<SessionData>) => {
       useSessionStore.setState({ ...initialSession, executor: 'visualization_ready', ...change });
@@ -81,8 +81,19 @@ describe('ExecutorState', () => {
       'Stopped: fault',
     );
     expect(words({ silentS: 12 })).toBe('Not responding (12 s)');
-    expect(words({ executor: 'application_running', isHanging: true, hungS: 7.4 })).toBe(
-      'Not responding (7 s)',
-    );
+  });
+
+  it('counts the seconds of a hanging tick by the clock, also where it is shown again', () => {
+    vi.useFakeTimers({ toFake: ['performance', 'setInterval', 'clearInterval'] });
+    onTestFinished(() => void vi.useRealTimers());
+    const hungSince = performance.now() - 7400;
+    useSessionStore.setState({ executor: 'application_running', hungSince });
+    const { unmount } = show(<ExecutorState />);
+    expect(state()).toHaveTextContent('Not responding (7 s)');
+    act(() => vi.advanceTimersByTime(19_000));
+    expect(state()).toHaveTextContent('Not responding (26 s)');
+    unmount();
+    show(<ExecutorState />);
+    expect(state()).toHaveTextContent('Not responding (26 s)');
   });
 });

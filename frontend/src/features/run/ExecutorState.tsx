@@ -1,5 +1,5 @@
 import { Tooltip } from '@mantine/core';
-import { useEffect, useState } from 'react';
+import { useLayoutEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
@@ -35,19 +35,18 @@ export function ExecutorState() {
   );
 }
 
-/** Returns the seconds since the executor's last answer, or since a hanging tick began. */
+/** Returns the seconds since the session's last answer, or since a hanging tick began. */
 function useSilence(): number {
   const silentS = useSessionStore((state) => state.silentS);
-  const isHanging = useSessionStore((state) => state.isHanging);
-  const hungS = useSessionStore((state) => Math.round(state.hungS));
-  const [hangsS, setHangsS] = useState(0);
-  useEffect(() => {
-    if (!isHanging) return;
-    const timer = setInterval(() => setHangsS((seconds) => seconds + 1), 1000);
-    return () => {
-      clearInterval(timer);
-      setHangsS(0);
-    };
-  }, [isHanging]);
-  return silentS > 0 ? silentS : hungS + hangsS;
+  const hungSince = useSessionStore((state) => state.hungSince);
+  const [now, setNow] = useState(0);
+  useLayoutEffect(() => {
+    if (hungSince === null) return;
+    // The clock is read, since a browser delays the timers of a page in the background.
+    const look = () => setNow(performance.now());
+    look();
+    const timer = setInterval(look, 1000);
+    return () => clearInterval(timer);
+  }, [hungSince]);
+  return silentS > 0 || hungSince === null ? silentS : Math.max(0, Math.round((now - hungSince) / 1000));
 }

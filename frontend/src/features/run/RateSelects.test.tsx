@@ -6,7 +6,7 @@ import { useRunStore } from '@/store/run/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openProject, show, user } from '../../../harness/testing';
-import { RateMenus, RateSelects, TimeMenu } from './RateSelects';
+import { RateMenus, RateSelects, TimeChip, TimeMenu } from './RateSelects';
 
 const tickHz = () => useProjectStore.getState().settings?.tick_hz;
 
@@ -106,5 +106,23 @@ describe('TimeMenu', () => {
     useRunStore.setState({ runBlocker: 'guest' });
     open();
     expect(screen.getByTestId('menu-time')).toBeDisabled();
+  });
+});
+
+describe('the chip of the time', () => {
+  it('names the time of the next run, and changes it', async () => {
+    show(<TimeChip />);
+    const chip = screen.getByRole('button', { name: 'Time of the next run: live' });
+    expect(chip).toHaveTextContent('Live');
+    await user.click(chip);
+    await user.click(await screen.findByRole('menuitemradio', { name: /^Exact/ }));
+    expect(useProjectStore.getState().settings?.time).toBe('exact');
+    expect(screen.getByTestId('run-time')).toHaveTextContent('Exact');
+  });
+
+  it('is read-only for users who may not run', () => {
+    useRunStore.setState({ runBlocker: 'viewer' });
+    show(<TimeChip />);
+    expect(screen.getByTestId('run-time')).toBeDisabled();
   });
 });

@@ -96,11 +96,60 @@ export function RateSelects() {
   return useRates().map((rate) => <RateSelect key={rate.testId} {...rate} />);
 }
 
-/** Whether the time of the next run waits for the tree, as a menu. */
-export function TimeMenu() {
-  const { t } = useTranslation('run');
+function useTime() {
   const time = useProjectStore((state) => state.settings?.time ?? 'live');
   const isDisabled = useRunStore((state) => state.runBlocker !== null);
+  return { time, isDisabled };
+}
+
+function TimeChoices() {
+  const { t } = useTranslation('run');
+  const { time } = useTime();
+  return (
+    <Menu.RadioGroup value={time} onChange={(chosen) => setRunTime(chosen === 'exact' ? 'exact' : 'live')}>
+      {RUN_TIMES.map((value) => (
+        <Menu.RadioItem key={value} closeMenuOnClick value={value} checkIcon={<IconCheck size={15} />}>
+          {t(`timeChoices.${value}`)}
+        </Menu.RadioItem>
+      ))}
+    </Menu.RadioGroup>
+  );
+}
+
+/** Whether the time of the next run waits for the tree, as a chip that opens the choice. */
+export function TimeChip() {
+  const { t } = useTranslation('run');
+  const { time, isDisabled } = useTime();
+  const [isOpen, setOpen] = useState(false);
+  const label = `${t('time')}: ${t(`times.${time}`)}`;
+  return (
+    <Menu position="bottom" disabled={isDisabled} opened={isOpen} onChange={setOpen}>
+      <Tooltip label={t('timeHelp')} disabled={isOpen} multiline maw={320}>
+        <Menu.Target>
+          <UnstyledButton
+            className={classes['rate']}
+            aria-label={label}
+            data-testid="run-time"
+            data-time={time}
+            disabled={isDisabled}
+          >
+            {t(`timeNames.${time}`)}
+            <IconChevronDown size={13} aria-hidden="true" />
+          </UnstyledButton>
+        </Menu.Target>
+      </Tooltip>
+      <Menu.Dropdown>
+        <Menu.Label>{t('time')}</Menu.Label>
+        <TimeChoices />
+      </Menu.Dropdown>
+    </Menu>
+  );
+}
+
+/** The time of the next run as a menu, for windows that are too narrow for its chip. */
+export function TimeMenu() {
+  const { t } = useTranslation('run');
+  const { time, isDisabled } = useTime();
   return (
     <Menu.Sub>
       <Menu.Sub.Target>
@@ -111,16 +160,7 @@ export function TimeMenu() {
         >{`${t('time')}: ${t(`times.${time}`)}`}</Menu.Sub.Item>
       </Menu.Sub.Target>
       <Menu.Sub.Dropdown>
-        <Menu.RadioGroup
-          value={time}
-          onChange={(chosen) => setRunTime(chosen === 'exact' ? 'exact' : 'live')}
-        >
-          {RUN_TIMES.map((value) => (
-            <Menu.RadioItem key={value} closeMenuOnClick value={value} checkIcon={<IconCheck size={15} />}>
-              {t(`timeChoices.${value}`)}
-            </Menu.RadioItem>
-          ))}
-        </Menu.RadioGroup>
+        <TimeChoices />
       </Menu.Sub.Dropdown>
     </Menu.Sub>
   );

@@ -14,6 +14,7 @@ import {
   user,
   type FakeExecutor,
 } from '../../../harness/testing';
+import { basicPage } from '../../../harness/basicPage';
 import { registerRunCommands } from './commands';
 import { useFollowing } from './following';
 import { RunControls } from './RunControls';
@@ -179,4 +180,17 @@ describe('RunControls', () => {
     edit();
     expect(button('Run')).toHaveAttribute('data-variant', 'filled');
   });
+});
+
+it('has Run, Pause and Stop in the basic page, a step while paused, and the rest in its menu', async () => {
+  basicPage();
+  await open('application_running');
+  const TIME = 'Time of the next run: live';
+  const names = () => screen.getAllByRole('button').map((each) => each.ariaLabel ?? each.textContent);
+  expect(names()).toEqual(['Run', 'Pause', 'More ways to run', 'Stop (the world stays)', TIME]);
+  await user.click(button('More ways to run'));
+  expect(await screen.findByRole('menuitem', { name: /End the session/ })).toBeInTheDocument();
+  await user.keyboard('{Escape}');
+  act(() => useSessionStore.setState({ executor: 'paused' }));
+  expect(names()).toContain('Step one tick');
 });

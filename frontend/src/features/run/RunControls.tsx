@@ -9,10 +9,11 @@ import { TickBackButton } from './TickBackButton';
 import { useRunStore } from '@/store/run/store';
 import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
+import { useIsBasic } from '@/store/viewMode';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
 import { useRunBlocker } from './useRunBlocker';
-import { RateSelects } from './RateSelects';
+import { RateSelects, TimeChip } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
@@ -34,6 +35,7 @@ export function RunControls() {
   const mayStop = !isBlocked || runBlocker === 'past';
   const hasChanged = useHasChanged();
   const { isPressed, handlers } = usePressed();
+  const isBasic = useIsBasic();
 
   return (
     <Group gap={4} wrap="nowrap">
@@ -63,34 +65,51 @@ export function RunControls() {
           {t('command.run')}
         </Button>
       </Tooltip>
-      <CommandButton
-        command="run.restart"
-        testId="restart"
-        isDisabled={!(hasApplication || executor === 'visualization_ready') || isBlocked || stage !== null}
-      />
+      {isBasic ? null : (
+        <CommandButton
+          command="run.restart"
+          testId="restart"
+          isDisabled={!(hasApplication || executor === 'visualization_ready') || isBlocked || stage !== null}
+        />
+      )}
       {isPaused ? (
         <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked || isGoingBack} />
       ) : (
         <CommandButton command="run.pause" testId="pause" isDisabled={!isRunning || isBlocked} />
       )}
-      <CommandButton
-        command="run.step"
-        testId="step"
-        isDisabled={!hasApplication || isHeld || isGoingBack || isBlocked}
-      />
-      <div className={classes['tickBack']}>
-        <TickBackButton />
-      </div>
+      {isBasic && !isPaused ? null : (
+        <CommandButton
+          command="run.step"
+          testId="step"
+          isDisabled={!hasApplication || isHeld || isGoingBack || isBlocked}
+        />
+      )}
+      {isBasic ? null : (
+        <div className={classes['tickBack']}>
+          <TickBackButton />
+        </div>
+      )}
       <RunMenu isDisabled={isBlocked} />
       <CommandButton
         command="run.stop"
         testId="stop"
         isDisabled={!(hasApplication || worldRuns) || !mayStop}
       />
-      <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || !mayStop} />
-      <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
+      {isBasic ? null : (
+        <>
+          <CommandButton
+            command="run.end"
+            testId="end-session"
+            isDisabled={connection === 'off' || !mayStop}
+          />
+          <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
+          <div className={classes['rates']}>
+            <RateSelects />
+          </div>
+        </>
+      )}
       <div className={classes['rates']}>
-        <RateSelects />
+        <TimeChip />
       </div>
       <ExecutorState />
     </Group>

@@ -19,6 +19,8 @@ const COMMANDS = [
   'run.teleop',
   'run.connectRos',
   'run.kept',
+  'run.mine',
+  'run.end',
 ];
 
 /** The menu of rare commands, and of options for the statuses on blocks. */

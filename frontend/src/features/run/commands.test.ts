@@ -9,7 +9,7 @@ import { registerRunCommands } from './commands';
 import { useFollowing } from './following';
 
 /** What acts on no world, or only ends what does. */
-const OF_THE_PAST = ['run.stop', 'run.followRunning', 'run.kept', 'run.end'];
+const OF_THE_PAST = ['run.stop', 'run.followRunning', 'run.kept', 'run.mine', 'run.end'];
 let executor: FakeExecutor;
 const table = () => useCommandTable.getState().commands;
 const isEnabled = (id: string) => table()[`run.${id}`]?.enabled?.() ?? true;

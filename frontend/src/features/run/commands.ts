@@ -9,6 +9,7 @@ import {
   IconPlayerTrackNextFilled,
   IconPower,
   IconRefresh,
+  IconRobot,
   IconRotateClockwise,
   IconSteeringWheel,
   IconTransform,
@@ -38,6 +39,7 @@ import {
 import { toggleFollowing } from './following';
 import { applyProject, restartProject, runProject } from '@/store/run/run';
 import { setDriving, useTeleop } from '@/store/run/teleop';
+import { openOwnRobots } from '@/store/dialogs/ownRobots';
 import { openRunsDialog } from '@/store/dialogs/runs';
 import { isLookingBack } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
@@ -170,6 +172,14 @@ const rows: UserCommand[] = [
     run: openRunsDialog,
   },
   {
+    id: 'run.mine',
+    group: 'run',
+    labelKey: 'run:command.mine',
+    icon: IconRobot,
+    enabled: () => useRunStore.getState().runBlocker !== 'guest',
+    run: openOwnRobots,
+  },
+  {
     id: 'run.end',
     group: 'run',
     labelKey: 'run:command.end',
@@ -180,7 +190,7 @@ const rows: UserCommand[] = [
 ];
 
 /** The commands that do not act on the world, or only end what acts on it. */
-const OF_THE_PAST = ['run.stop', 'run.end', 'run.followRunning', 'run.takeOver', 'run.kept'];
+const OF_THE_PAST = ['run.stop', 'run.end', 'run.followRunning', 'run.takeOver', 'run.kept', 'run.mine'];
 
 /** Returns a command that is not available while the page shows the past, if it acts on the world. */
 const inPresent = (row: UserCommand): UserCommand =>

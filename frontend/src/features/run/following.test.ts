@@ -6,7 +6,7 @@ import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { treeNode } from '../../../harness/running';
 import { openProject, watchNavigation } from '../../../harness/testing';
-import { followRunning, runningLeaf, toggleFollowing, useFollowing } from './following';
+import { followRunning, runningBlock, toggleFollowing, useFollowing } from './following';
 
 const nodes = [
   treeNode(1, 0, 'root'),
@@ -16,20 +16,21 @@ const nodes = [
   treeNode(5, 3, 'hidden', { node_id: '' }),
 ];
 
-const leafOf = (...running: number[]) => runningLeaf(nodes, ({ uid }) => running.includes(uid))?.uid;
+const found = (...running: number[]) => runningBlock(nodes, ({ uid }) => running.includes(uid))?.uid;
 
-describe('runningLeaf', () => {
-  it('is the first running node without a running child', () => {
-    expect(leafOf()).toBeUndefined();
-    expect(leafOf(1)).toBe(1);
-    expect(leafOf(1, 3, 4)).toBe(4);
-    expect(leafOf(1, 2, 3, 4)).toBe(2);
-    expect(leafOf(1, 3, 5)).toBeUndefined();
-  });
+it('the running block is the deepest, and the first of several', () => {
+  expect(found()).toBeUndefined();
+  expect(found(1)).toBe(1);
+  expect(found(1, 3, 4)).toBe(4);
+  expect(found(1, 2, 3, 4)).toBe(4);
+  expect(found(1, 2, 3)).toBe(2);
+  expect(found(1, 3, 5)).toBe(3);
 });
 
+const KEY = 'bts.followRunning.p1';
+
 describe('following', () => {
-  let openTree: ReturnType<typeof watchNavigation>['openTree'];
+  let showTree: ReturnType<typeof watchNavigation>['showTree'];
   const run = (...uids: number[]) => {
     const entries = uids.map((uid): [string, NodeStatus] => [liveKey('Main', `n${uid}`), 'RUNNING']);
     useLiveStore.setState({ statuses: new Map(entries) });
@@ -40,7 +41,7 @@ describe('following', () => {
     vi.useFakeTimers();
     localStorage.clear();
     openProject({ trees: { Main: { n1: { type: 'Sequence' } } } });
-    ({ openTree } = watchNavigation());
+    ({ showTree } = watchNavigation());
     useSessionStore.setState({ tree: nodes });
     const stop = followRunning();
     onTestFinished(() => {
@@ -56,47 +57,70 @@ describe('following', () => {
   it('is off at first, and remembered', () => {
     expect(useFollowing.getState().isOn).toBe(false);
     toggleFollowing();
-    expect([useFollowing.getState().isOn, localStorage.getItem('bts.followRunning')]).toEqual([true, '1']);
+    expect([useFollowing.getState().isOn, localStorage.getItem(KEY)]).toEqual([true, '1']);
     toggleFollowing();
-    expect([useFollowing.getState().isOn, localStorage.getItem('bts.followRunning')]).toEqual([false, '0']);
+    expect([useFollowing.getState().isOn, localStorage.getItem(KEY)]).toEqual([false, '0']);
   });
 
   it('shows nothing while it is off', () => {
     run(1, 2);
     vi.advanceTimersByTime(2000);
-    expect(openTree).not.toHaveBeenCalled();
+    expect(showTree).not.toHaveBeenCalled();
   });
 
-  it('shows the running block as soon as it is switched on', () => {
-    run(1, 3, 4);
+  it('shows a block that has run long enough, and what it shows once', () => {
     toggleFollowing();
-    vi.advanceTimersByTime(700);
-    expect(openTree).toHaveBeenCalledExactlyOnceWith('Main');
-    expect(revealed()).toMatchObject({ tree: 'Main', node: 'n4', count: 1 });
-  });
-
-  it('shows another block after a readable time, and only the last of several', () => {
-    toggleFollowing();
-    vi.advanceTimersByTime(700);
-    run(1, 2);
-    vi.advanceTimersByTime(600);
     run(1, 3, 4);
-    vi.advanceTimersByTime(99);
-    expect(revealed()).toBeFalsy();
+    vi.advanceTimersByTime(699);
+    expect(showTree).not.toHaveBeenCalled();
     vi.advanceTimersByTime(1);
-    expect(revealed()).toMatchObject({ node: 'n4', count: 1 });
+    expect(showTree).toHaveBeenCalledExactlyOnceWith('Main');
+    expect(revealed()).toMatchObject({ tree: 'Main', node: 'n4', count: 1 });
+    run(1, 3, 4);
+    vi.advanceTimersByTime(2000);
+    expect(revealed()).toMatchObject({ count: 1 });
+  });
+
+  it('stays at the block above while those below change in less than half a second', () => {
+    toggleFollowing();
+    for (let round = 0; round < 10; round += 1) {
+      run(1, 3, 4);
+      vi.advanceTimersByTime(200);
+      run(1, 2);
+      vi.advanceTimersByTime(200);
+    }
+    expect(revealed()).toMatchObject({ node: 'n1', count: 1 });
     run(1, 2);
-    vi.advanceTimersByTime(700);
+    vi.advanceTimersByTime(1400);
     expect(revealed()).toMatchObject({ node: 'n2', count: 2 });
   });
 
-  it('shows a block once while it runs', () => {
+  it('leaves the view alone where a file is in front, or somebody writes', () => {
+    showTree.mockReturnValue(false);
     toggleFollowing();
     run(1, 2);
-    vi.advanceTimersByTime(700);
-    run(1, 2);
-    vi.advanceTimersByTime(700);
-    expect(openTree).toHaveBeenCalledOnce();
+    vi.advanceTimersByTime(1400);
+    expect(revealed()).toBeFalsy();
+    showTree.mockReturnValue(true);
+    const editor = document.createElement('div');
+    editor.className = 'cm-editor';
+    editor.tabIndex = 0;
+    document.body.append(editor);
+    editor.focus();
+    vi.advanceTimersByTime(1400);
+    expect(revealed()).toBeFalsy();
+    editor.remove();
+    vi.advanceTimersByTime(1400);
+    expect(revealed()).toMatchObject({ node: 'n2' });
+  });
+
+  it('is of one project', () => {
+    toggleFollowing();
+    openProject({ trees: { Main: { n1: { type: 'Sequence' } } } });
+    useProjectStore.setState({ projectId: 'other' });
+    expect(useFollowing.getState().isOn).toBe(false);
+    useProjectStore.setState({ projectId: 'p1' });
+    expect(useFollowing.getState().isOn).toBe(true);
   });
 
   it('stops when it is switched off', () => {
@@ -104,6 +128,6 @@ describe('following', () => {
     run(1, 2);
     toggleFollowing();
     vi.advanceTimersByTime(2000);
-    expect(openTree).not.toHaveBeenCalled();
+    expect(showTree).not.toHaveBeenCalled();
   });
 });

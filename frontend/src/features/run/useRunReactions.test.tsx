@@ -1,4 +1,4 @@
-import { act } from '@testing-library/react';
+import { act, cleanup } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Diagnostic } from '@/api/types';
 import type { Fault } from '@/generated/messages';
@@ -6,7 +6,7 @@ import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import { openProject, show } from '../../../harness/testing';
+import { openProject, show, watchNavigation } from '../../../harness/testing';
 import { useRunReactions } from './useRunReactions';
 
 const showPanel = vi.fn();
@@ -28,6 +28,18 @@ beforeEach(() => {
   });
 });
 
+it('forgets the failure, and the edit that ran, when the project is closed', () => {
+  act(() =>
+    useRunStore.setState({
+      failure: { stage: 'checking', code: 'x', message: '', hint: '', diagnostics: [] },
+      ranAt: 12,
+      declinedRestart: 12,
+    }),
+  );
+  cleanup();
+  expect(useRunStore.getState()).toMatchObject({ failure: null, ranAt: 0, declinedRestart: null });
+});
+
 describe('a run that was refused', () => {
   const fail = (diagnostics: Diagnostic[]) =>
     act(() =>
@@ -39,6 +51,38 @@ describe('a run that was refused', () => {
     fail(diagnostics);
     expect(showPanel).toHaveBeenCalledExactlyOnceWith('problems');
     expect(useProjectStore.getState().diagnostics).toEqual(diagnostics);
+  });
+
+  const missing = { code: 'BT0201', severity: 'error', message: 'bad', tree: 'Main', node: 'a' } as const;
+  const inTree = () =>
+    openProject({ trees: { Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep' } } } });
+
+  it('leads to the block, and into the field of the port', () => {
+    inTree();
+    const { openTree, focusField } = watchNavigation();
+    fail([{ ...missing, port: 'msec', file: 'trees/Main.json', line: 1 }]);
+    expect(openTree).toHaveBeenCalledExactlyOnceWith('Main');
+    expect(useProjectStore.getState()).toMatchObject({
+      selection: ['a'],
+      revealed: { tree: 'Main', node: 'a' },
+    });
+    expect(focusField).toHaveBeenCalledExactlyOnceWith('msec');
+    expect(openFile).not.toHaveBeenCalled();
+  });
+
+  it.each<[string, Diagnostic[], number]>([
+    ['a tree without a block', [{ ...missing, node: '' }], 1],
+    ['a block that is gone', [{ ...missing, node: 'gone' }], 1],
+    ['a tree that is gone', [{ ...missing, tree: 'Gone' }], 0],
+    ['a file', [{ code: 'BT0601', severity: 'error', message: 'bad', file: 'actions/Go.py' }, missing], 0],
+    ['a warning', [{ ...missing, severity: 'warning' }], 0],
+  ])('shows the tree at most, and leaves the selection: %s', (_what, diagnostics, opened) => {
+    inTree();
+    const { openTree, focusField } = watchNavigation();
+    fail(diagnostics);
+    expect(openTree).toHaveBeenCalledTimes(opened);
+    expect(useProjectStore.getState().selection).toEqual([]);
+    expect(focusField).not.toHaveBeenCalled();
   });
 
   it('shows no list if there are no problems', () => {

@@ -1,7 +1,12 @@
 import { useEffect, useRef } from 'react';
+import type { Diagnostic } from '@/api/types';
 import type { Fault } from '@/generated/messages';
+import { openBlock } from '@/store/problems/open';
 import { useProjectStore } from '@/store/project';
+import { openTree } from '@/store/project/navigation';
+import { errorsOf } from '@/store/project/problems';
 import { followPorts } from '@/store/run/portSync';
+import { followRanTexts } from '@/store/run/ranTexts';
 import { useRunStore } from '@/store/run/store';
 import { launchNodeFaults } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
@@ -21,12 +26,15 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
   useEffect(followRunning, []);
   useEffect(forgetWithTheFirstEdit, []);
   useEffect(followPorts, []);
+  useEffect(followRanTexts, []);
+  useEffect(() => leaveRuns, []);
 
   useEffect(() => {
     if (!failure || failure.diagnostics.length === 0) return;
     const { actions, setChecked } = useProjectStore.getState();
     setChecked({ diagnostics: failure.diagnostics, actions });
     showPanel('problems');
+    leadTo(failure.diagnostics);
     // The frame's functions never change, so they are not listed as dependencies.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [failure]);
@@ -42,6 +50,21 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
     if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [fault]);
+}
+
+/** Forgets what concerns the runs of this project, which is closed: the next one has other blocks and edits. */
+function leaveRuns(): void {
+  useRunStore.setState({ failure: null, ranAt: 0, declinedRestart: null, readTakeOver: '' });
+}
+
+/** Leads to the block of the first error, which the message names, and into the field of its port. */
+function leadTo(diagnostics: readonly Diagnostic[]): void {
+  const [first] = errorsOf(diagnostics);
+  const { diagrams } = useProjectStore.getState();
+  const { tree, node, port } = first ?? {};
+  if (!tree || !(tree in diagrams)) return;
+  if (node && diagrams[tree]?.nodes[node]) openBlock({ tree, node, ...(port ? { port } : {}) });
+  else openTree(tree);
 }
 
 /**

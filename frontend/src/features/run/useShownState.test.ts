@@ -17,6 +17,6 @@ it('is a fault only if the end was not requested, and until the next run', () =>
 });
 
 it('is silent while a tick hangs, which a lost connection hides', () => {
-  expect(shown({ executor: 'application_running', isHanging: true })).toBe('silent');
-  expect(shown({ isHanging: true, connection: 'lost' })).toBe('lost');
+  expect(shown({ executor: 'application_running', hungSince: 5 })).toBe('silent');
+  expect(shown({ hungSince: 5, connection: 'lost' })).toBe('lost');
 });

@@ -9,9 +9,9 @@ export type ShownState = State | 'lost' | 'silent' | 'launching' | 'fault';
 const FAULTS = new Set(['action_raised', 'process_died']);
 
 export function shownState(state: SessionData): ShownState {
-  const { connection, silentS, isHanging, isLaunching, finished, executor } = state;
+  const { connection, silentS, hungSince, isLaunching, finished, executor } = state;
   if (connection === 'reconnecting' || connection === 'lost') return 'lost';
-  if (silentS > 0 || isHanging) return 'silent';
+  if (silentS > 0 || hungSince !== null) return 'silent';
   if (isLaunching) return 'launching';
   const isStopped = executor === 'visualization_ready' || executor === 'connected';
   return isStopped && finished && FAULTS.has(finished.reason) ? 'fault' : executor;

@@ -1,4 +1,4 @@
-import { act, screen } from '@testing-library/react';
+import { act, screen, waitFor } from '@testing-library/react';
 import { afterEach, expect, it, vi } from 'vitest';
 import type { Segment } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
@@ -24,7 +24,7 @@ it('has a name already, and forgets the note of a kept run alone', async () => {
   expect(onKeep).toHaveBeenCalledWith(expect.objectContaining({ run: 'a1', note: 'slow' }));
   expect(note).toHaveValue(' slow ');
   await user.click(screen.getByRole('button', { name: 'Keep' }));
-  expect(note).toHaveValue('');
+  await waitFor(() => expect(note).toHaveValue(''));
 });
 
 it('keeps an earlier run of the session, too; one that is gone meanwhile is not offered', async () => {

@@ -21,4 +21,6 @@ it('opens the chosen file, and shows that it is being read', async () => {
   expect(button).toHaveAttribute('data-loading');
   finish();
   await expect.poll(() => button.hasAttribute('data-loading')).toBe(false);
+  await user.upload(input, file);
+  expect(onOpen).toHaveBeenCalledTimes(2);
 });

@@ -2,6 +2,7 @@ import { Button, FileButton } from '@mantine/core';
 import { IconFolderOpen } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { chooseAgain } from '@/ui/drop/chooseAgain';
 import { LOG_ENDINGS } from './openNewLog';
 
 /** A button that opens the log of a robot on the time axis. */
@@ -15,7 +16,7 @@ export function LogButton({ onOpen }: { readonly onOpen: (file: File) => Promise
     setReading(false);
   };
   return (
-    <FileButton onChange={(file) => void open(file)} accept={LOG_ENDINGS.join(',')}>
+    <FileButton onChange={(file) => void open(file)} accept={LOG_ENDINGS.join(',')} inputProps={chooseAgain}>
       {(props) => (
         <Button
           {...props}

@@ -25,7 +25,7 @@ export function MyRuns() {
         </Title>
         <LogButton onOpen={(file) => openNewLog(file, t)} />
       </Group>
-      {found.isPending ? <Skeleton height={78} radius="lg" aria-label={t('loading')} /> : null}
+      {found.isPending ? <Skeleton height={78} radius="lg" role="status" aria-label={t('loading')} /> : null}
       {found.isError ? (
         <Alert color="red" icon={<IconAlertTriangle />} title={t('listFailed')}>
           <Text size="sm">{found.error.message}</Text>

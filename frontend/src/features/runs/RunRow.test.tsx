@@ -1,3 +1,4 @@
+import { Modal } from '@mantine/core';
 import { screen } from '@testing-library/react';
 import { expect, it, vi } from 'vitest';
 import type { StoredRun } from '@/api/runs';
@@ -36,6 +37,21 @@ it('keeps its name with Escape, and with an empty one', async () => {
     expect(screen.queryByRole('textbox')).toBeNull();
   }
   expect(onChange).not.toHaveBeenCalled();
+});
+
+it('leaves the dialogue around it open when Escape leaves its name', async () => {
+  const onClose = vi.fn();
+  const calls = { onOpen: vi.fn(), onChange: vi.fn(), onRemove: vi.fn() };
+  show(
+    <Modal opened onClose={onClose}>
+      <RunRow projectId="p1" run={run} {...calls} />
+    </Modal>,
+  );
+  await choose('Rename');
+  await user.click(await screen.findByRole('textbox', { name: 'Name' }));
+  await user.keyboard('{Escape}');
+  expect(screen.queryByRole('textbox')).toBeNull();
+  expect(onClose).not.toHaveBeenCalled();
 });
 
 it('is not shared by those who may not', async () => {

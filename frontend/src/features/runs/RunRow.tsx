@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { runs, type RunChange, type StoredRun } from '@/api/runs';
 import { timeAgo } from '@/i18n/timeAgo';
 import { linkTo } from '@/store/moment/address';
-import { copyLink } from '@/ui/copyLink';
+import { copyLink } from '@/ui/copying';
 import { minutes, RESULT_COLORS } from './present';
 import { Thumbnail } from './Thumbnail';
 
@@ -169,6 +169,8 @@ function NameField({ name, onDone }: { readonly name: string; readonly onDone: (
       maxLength={100}
       value={text}
       ref={field}
+      // Escape leaves the field, not the dialogue around it, which listens at the window.
+      data-mantine-stop-propagation="true"
       onChange={(event) => setText(event.currentTarget.value)}
       onKeyDown={(event) => {
         event.stopPropagation();

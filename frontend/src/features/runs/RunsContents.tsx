@@ -22,7 +22,7 @@ export function RunsContents() {
       <Group justify="flex-end" mb="xs">
         <LogButton onOpen={(file) => openLog(projectId, file, client, t)} />
       </Group>
-      {found.isPending ? <Loader size="sm" aria-label={t('loading')} /> : null}
+      {found.isPending ? <Loader size="sm" role="status" aria-label={t('loading')} /> : null}
       {found.isError ? <Alert color="red">{found.error.message}</Alert> : null}
       {found.isSuccess && rows.length === 0 ? <Text c="dimmed">{t('none')}</Text> : null}
       <Stack component="ul" aria-label={t('title')} gap="md" p={0} m={0} style={{ listStyle: 'none' }}>

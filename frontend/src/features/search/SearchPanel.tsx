@@ -5,6 +5,7 @@ import { MOST_HITS } from '@/model/search/seek';
 import { useProjectStore } from '@/store/project';
 import { replaceHits } from '@/store/project/edits/replace';
 import { undoNotification } from '@/ui/undoNotification';
+import { LargeFiles } from './LargeFiles';
 import { ResultGroup } from './ResultGroup';
 import { replacementsOf, type Row } from './results';
 import { SearchForm } from './SearchForm';
@@ -54,6 +55,7 @@ export function SearchPanel() {
         onDown={() => walk(list.current, 1)}
       />
       <Summary state={state} />
+      {state.kind === 'idle' ? null : <LargeFiles />}
       <ScrollArea className={classes['results'] ?? ''} type="auto" scrollbarSize={8}>
         {/* The rows are buttons; the arrow keys only move the focus among them. */}
         {/* eslint-disable-next-line jsx-a11y/no-static-element-interactions */}

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { NodeStatus } from '@/generated/messages';
 import { Trace } from '@/store/session/trace/trace';
-import { drawTimeline, paletteOf, ROW_PX } from './draw';
+import { drawTimeline, drawTimes, paletteOf, ROW_PX } from './draw';
 
 const palette = {
   surface: 'surface',
@@ -21,6 +21,8 @@ class Recorder {
   fillStyle = '';
   font = '';
   textBaseline = '';
+  strokeStyle = '';
+  readonly rims: [color: string, text: string][] = [];
   readonly rects: Rect[] = [];
   readonly texts: [text: string, x: number, y: number][] = [];
   readonly calls: string[] = [];
@@ -34,6 +36,9 @@ class Recorder {
   }
   fillText(text: string, x: number, y: number): void {
     this.texts.push([text, x, y]);
+  }
+  strokeText(text: string): void {
+    this.rims.push([this.strokeStyle, text]);
   }
   rect(...box: number[]): void {
     this.clipped = box;
@@ -173,4 +178,21 @@ it('reads its colours from the theme', () => {
   for (const token of Object.values(names)) element.style.setProperty(`--bts-${token}`, ` ${token} `);
   expect(paletteOf(element)).toEqual(names);
   element.remove();
+});
+
+it('draws round times over a strip, each with a rim that keeps it readable', () => {
+  const canvas = new Recorder();
+  drawTimes(canvas as unknown as CanvasRenderingContext2D, { from: 4, to: 14 }, 300, palette);
+  expect(canvas.texts).toEqual([
+    ['5 s', 34, 1],
+    ['10 s', 184, 1],
+  ]);
+  expect(canvas.rims).toEqual([
+    ['surface', '5 s'],
+    ['surface', '10 s'],
+  ]);
+  expect(canvas.rects.map(([color, x]) => [color, x])).toEqual([
+    ['moment', 30],
+    ['moment', 180],
+  ]);
 });

@@ -32,6 +32,9 @@ export function paletteOf(element: Element): Palette {
   };
 }
 
+/** The height of a mark of time on the axis, in px. */
+const TIME_PX = 6;
+
 interface Picture {
   context: CanvasRenderingContext2D;
   width: number;
@@ -89,6 +92,29 @@ export function drawTimeline(trace: Trace, picture: Picture): void {
   if (now >= 0 && now <= width) {
     context.fillStyle = palette.text;
     context.fillRect(Math.min(Math.round(now), width - 1), AXIS_PX - 5, 1, height);
+  }
+}
+
+/** Draws marks of simulated time over what is drawn already, at round times that have room for their texts. */
+export function drawTimes(
+  context: CanvasRenderingContext2D,
+  span: Span,
+  width: number,
+  palette: Palette,
+): void {
+  const scale = width / (span.to - span.from);
+  context.font = '10px Inter Variable, system-ui, sans-serif';
+  context.textBaseline = 'top';
+  context.lineWidth = 3;
+  context.lineJoin = 'round';
+  for (const mark of marks(span, width)) {
+    const x = Math.round((mark - span.from) * scale);
+    context.fillStyle = palette.moment;
+    context.fillRect(x, 0, 1, TIME_PX);
+    // A rim keeps the text readable on every status.
+    context.strokeStyle = palette.surface;
+    context.strokeText(timeLabel(mark), x + 4, 1);
+    context.fillText(timeLabel(mark), x + 4, 1);
   }
 }
 

@@ -3,6 +3,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { closeTries, stopTries, useTryMany, type TriedBlock } from '@/store/moment/rerun/tryMany';
 import { useTries } from '@/store/session/tries';
+import { useBlockNames } from './blockNames';
 import { SeedsForm } from './SeedsForm';
 import { TryResults } from './TryResults';
 import { ValuesForm } from './ValuesForm';
@@ -64,6 +65,7 @@ function Asked(props: AskedProps) {
 /** Block and port, and the form for the values of this port. */
 function PortAsked({ run, t: moment, blocks, uid }: AskedProps) {
   const { t } = useTranslation('axis');
+  const nameOf = useBlockNames();
   const [chosen, setChosen] = useState(uid);
   const [name, setName] = useState('');
   const block = blocks.find((each) => each.uid === chosen);
@@ -81,9 +83,10 @@ function PortAsked({ run, t: moment, blocks, uid }: AskedProps) {
       <Group gap="sm" align="end">
         <NativeSelect
           size="xs"
+          maw="100%"
           label={t('tries.block')}
           value={String(block.uid)}
-          data={blocks.map((each) => ({ value: String(each.uid), label: each.path }))}
+          data={blocks.map((each) => ({ value: String(each.uid), label: nameOf(each.path) }))}
           onChange={({ currentTarget }) => setChosen(Number(currentTarget.value))}
           data-autofocus
           data-testid="tries-block"

@@ -7,12 +7,14 @@ import { canUse, drawTries, openAsBranch, writeValue } from '@/store/moment/reru
 import { choosePath, useTries, type TriesJob } from '@/store/session/tries';
 import { showPanel } from '@/workspace/tabs';
 import { cssOf, hueOf } from '@/store/session/trace/shownPaths';
+import { useBlockNames } from './blockNames';
 import { TryPlan } from './TryPlan';
 import classes from './tries.module.css';
 
 /** What came of each value: a table, and the paths of the robots from above. */
 export function TryResults() {
   const { t } = useTranslation('axis');
+  const nameOf = useBlockNames();
   const job = useTries((state) => state.job);
   if (job === null || job.started === null) return null;
   const { place, hidden, outcomes } = job;
@@ -24,7 +26,7 @@ export function TryResults() {
     <section className={classes['results']} data-testid="tries-results">
       <Text size="sm" fw={600}>
         {place
-          ? t('tries.results', { port: place.port, path: place.path, t: moment })
+          ? t('tries.results', { port: place.port, path: nameOf(place.path), t: moment })
           : t('tries.seedResults', { t: moment })}
       </Text>
       {drawn.length > 0 ? (
@@ -86,6 +88,7 @@ interface RowProps {
 
 function Row({ job, index, value }: RowProps) {
   const { t } = useTranslation('axis');
+  const nameOf = useBlockNames();
   const outcome = job.outcomes.find((each) => each.index === index);
   const did = outcome !== undefined && outcome.ticks > 0;
   const cells: Record<string, ReactNode> = {
@@ -108,7 +111,7 @@ function Row({ job, index, value }: RowProps) {
     end: outcome ? <End outcome={outcome} job={job} /> : job.ended ? '–' : t('tries.waiting'),
     crash: did ? <FirstCrash outcome={outcome} /> : '–',
     distance: did ? `${outcome.distance_m.toFixed(2)} m` : '–',
-    nodes: outcome?.nodes.join(', ') || '–',
+    nodes: outcome?.nodes.map(nameOf).join(', ') || '–',
     actions: did ? <Actions job={job} index={index} value={value} /> : null,
   };
   return (
@@ -134,6 +137,9 @@ function End({ outcome, job }: { readonly outcome: TryOutcome; readonly job: Tri
   return (
     <span title={outcome.message}>
       {t(`tries.end.${outcome.end}`, { root: outcome.root })}
+      {outcome.end !== 'running' && outcome.ticks > 0
+        ? ` ${t('tries.after', { t: (outcome.t - job.moment.t).toFixed(2) })}`
+        : ''}
       {notes.length > 0 ? <span className={classes['note']}> ({notes.join('; ')})</span> : null}
       {['refused', 'fault', 'died'].includes(outcome.end) ? (
         <span className={classes['message']}>{outcome.message}</span>

@@ -84,7 +84,7 @@ export function UniverseChooser() {
     else openNewRobot(robot);
   };
 
-  if (!isReady) return <Loader size="sm" aria-label={t('loading')} />;
+  if (!isReady) return <Loader size="sm" role="status" aria-label={t('loading')} />;
   return (
     <Stack ref={root} gap="md" data-testid="worlds">
       <Text size="sm" fw={600}>

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
+import { FromFile } from '@/features/editor3d/FromFile';
 import { takenUniverses } from '@/features/universe/freeNames';
 import { OUTSIDE, titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
@@ -16,6 +17,7 @@ export function NewUniverse() {
   const base = useNewUniverse((state) => state.base);
   return (
     <CopyDialog title={t('new.title')} isOpen={base !== null} onClose={closeNewUniverse}>
+      <FromFile kind="universe" onLeave={closeNewUniverse} />
       <Form first={base ?? ''} />
     </CopyDialog>
   );
@@ -36,7 +38,7 @@ function Form({ first }: { readonly first: string }) {
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
   const taken = takenUniverses(Object.keys(files));
   const shipped = (universes.data ?? []).filter(({ id }) => id !== OUTSIDE);
-  if (universes.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
+  if (universes.isPending) return <Loader size="sm" role="status" aria-label={t('new.loading')} />;
   return (
     <CopyForm
       items={shipped.map((info) => titled(title, 'universe', info))}

@@ -2,6 +2,7 @@ import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { select } from '@/features/editor3d/editing';
 import { useProjectStore } from '@/store/project';
+import { type as typeInto, write as writeInto } from '../../../harness/documents';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { editorOf, readingOf, type UniverseEditor } from './editor';
 import { UniversePanel } from './UniversePanel';
@@ -33,11 +34,8 @@ const universe = () => readingOf(editor).universe!;
 const thing = (id: string) => universe().things.find((each) => each.id === id);
 const field = (label: string | RegExp) => screen.getByRole('textbox', { name: label });
 
-async function type(label: string | RegExp, text: string) {
-  await user.clear(field(label));
-  await user.type(field(label), text);
-}
-const write = (label: string | RegExp, text: string) => type(label, `${text}{Enter}`);
+const type = (label: string | RegExp, text: string) => typeInto(field(label), text);
+const write = (label: string | RegExp, text: string) => writeInto(field(label), text);
 const choose = (id: string) => {
   act(() => {
     select(editor, [thing(id)!.key]);
@@ -80,9 +78,7 @@ describe('the fields of a universe', () => {
   it('add a ceiling, change its height and remove it', async () => {
     await user.click(screen.getByTestId('field-ceiling'));
     expect(universe().ceiling?.height).toBe(2.5);
-    const height = screen.getByTestId('field-ceiling-height');
-    await user.clear(height);
-    await user.type(height, '3{Enter}');
+    await writeInto('field-ceiling-height', '3');
     expect(universe().ceiling?.height).toBe(3);
     await user.click(screen.getByTestId('field-ceiling'));
     expect(universe().ceiling).toBeNull();
@@ -116,12 +112,8 @@ describe('the fields of a thing', () => {
   });
 
   it('move and turn it', async () => {
-    const write = async (id: string, text: string) => {
-      await user.clear(screen.getByTestId(id));
-      await user.type(screen.getByTestId(id), `${text}{Enter}`);
-    };
-    await write('field-x', '3.5');
-    await write('field-yaw', '90');
+    await writeInto('field-x', '3.5');
+    await writeInto('field-yaw', '90');
     const moved = thing('crate');
     expect(moved).toMatchObject({ section: 'models' });
     expect(moved?.section === 'models' && moved.pose.map((part) => Math.round(part * 100) / 100)).toEqual([
@@ -130,9 +122,7 @@ describe('the fields of a thing', () => {
   });
 
   it('keep it on the floor when its height changes', async () => {
-    const height = screen.getByTestId('field-size-2');
-    await user.clear(height);
-    await user.type(height, '1{Enter}');
+    await writeInto('field-size-2', '1');
     expect(thing('crate')).toMatchObject({ size: [0.4, 0.4, 1], pose: [1, 2, 0.5, 0, 0, 0] });
   });
 
@@ -141,12 +131,9 @@ describe('the fields of a thing', () => {
     await user.click(screen.getByTestId('field-dynamic'));
     expect(thing('crate')).toMatchObject({ mass: 1 });
     expect(screen.queryByTestId('field-to-ceiling')).toBeNull();
-    const mass = screen.getByTestId('field-mass');
-    await user.clear(mass);
-    await user.type(mass, 'heavy{Enter}');
+    await writeInto('field-mass', 'heavy');
     expect(thing('crate')).toMatchObject({ mass: 1 });
-    await user.clear(mass);
-    await user.type(mass, '4{Enter}');
+    await writeInto('field-mass', '4');
     expect(thing('crate')).toMatchObject({ mass: 4 });
   });
 

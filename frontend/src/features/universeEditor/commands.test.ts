@@ -95,6 +95,7 @@ describe('placeThing', () => {
       ],
       speed: 0.5,
       loop: true,
+      yields: true,
     });
     placeThing(editor, { kind: 'robot', model: 'rover' }, [-1, -2]);
     expect(last(editor, 'robots')).toMatchObject({

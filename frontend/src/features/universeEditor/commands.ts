@@ -78,7 +78,7 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
     ];
     return {
       section: 'actors',
-      item: { id, model: 'person', color: '#20c020', path, speed: 0.5, loop: true },
+      item: { id, model: 'person', color: '#20c020', path, speed: 0.5, loop: true, yields: true },
     };
   }
   if (what.kind === 'area') {

@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { perform, useCommandTable } from '@/commands/registry';
 import { setDriving, useTeleop } from '@/store/run/teleop';
 import { openSession, show, user } from '../../../harness/testing';
+import { basicPage } from '../../../harness/basicPage';
 import { setMeasuring, useMeasuring } from './measuring';
 import { loadViewOptions } from './viewOptions';
 import { ViewerToolbar } from './ViewerToolbar';
@@ -116,4 +117,12 @@ describe('the commands of the 3D view', () => {
     unmount();
     expect(mine()).toEqual([]);
   });
+});
+
+it('is driving alone in the basic page, and a measurement that is on', () => {
+  basicPage();
+  toolbar();
+  expect(screen.getAllByRole('button').map(({ ariaLabel }) => ariaLabel)).toEqual(['Drive by hand']);
+  act(() => setMeasuring(true));
+  expect(button('Measure a distance')).toBeInTheDocument();
 });

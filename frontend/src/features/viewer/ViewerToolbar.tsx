@@ -11,6 +11,7 @@ import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { setDriving, useTeleop } from '@/store/run/teleop';
+import { useIsBasic } from '@/store/viewMode';
 import { setMeasuring, useMeasuring } from './measuring';
 import type { ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
@@ -26,51 +27,58 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   const { t } = useTranslation('viewer');
   const isDriving = useTeleop((state) => state.isOn);
   const isMeasuring = useMeasuring((state) => state.isOn);
+  const isBasic = useIsBasic();
   useViewerCommands(options, onChange);
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={t('tools')}>
-      <Menu position="left-start" closeOnItemClick={false}>
-        <Tooltip label={t('show')} position="left">
-          <Menu.Target>
-            <ActionIcon aria-label={t('show')}>
-              <IconEye size={17} />
-            </ActionIcon>
-          </Menu.Target>
-        </Tooltip>
-        <Menu.Dropdown>
-          {SHOWN.map((key) => (
-            <Menu.CheckboxItem
-              key={key}
-              checked={options[key]}
-              onChange={(isShown) => onChange({ [key]: isShown })}
-            >
-              {t(key)}
-            </Menu.CheckboxItem>
-          ))}
-        </Menu.Dropdown>
-      </Menu>
-      <Tool
-        label={t('follow')}
-        icon={IconCurrentLocation}
-        isPressed={options.follow}
-        onClick={() => onChange({ follow: !options.follow })}
-      />
-      <Tool
-        label={t('top')}
-        icon={IconFocusCentered}
-        onClick={() => onChange({ viewpoint: { kind: 'top' }, follow: false })}
-      />
-      <Tool
-        label={t('reset')}
-        icon={IconView360Arrow}
-        onClick={() => onChange({ viewpoint: { kind: 'default' }, follow: true })}
-      />
-      <Tool
-        label={t('measure')}
-        icon={IconRulerMeasure}
-        isPressed={isMeasuring}
-        onClick={() => setMeasuring(!isMeasuring)}
-      />
+      {isBasic ? null : (
+        <>
+          <Menu position="left-start" closeOnItemClick={false}>
+            <Tooltip label={t('show')} position="left">
+              <Menu.Target>
+                <ActionIcon aria-label={t('show')}>
+                  <IconEye size={17} />
+                </ActionIcon>
+              </Menu.Target>
+            </Tooltip>
+            <Menu.Dropdown>
+              {SHOWN.map((key) => (
+                <Menu.CheckboxItem
+                  key={key}
+                  checked={options[key]}
+                  onChange={(isShown) => onChange({ [key]: isShown })}
+                >
+                  {t(key)}
+                </Menu.CheckboxItem>
+              ))}
+            </Menu.Dropdown>
+          </Menu>
+          <Tool
+            label={t('follow')}
+            icon={IconCurrentLocation}
+            isPressed={options.follow}
+            onClick={() => onChange({ follow: !options.follow })}
+          />
+          <Tool
+            label={t('top')}
+            icon={IconFocusCentered}
+            onClick={() => onChange({ viewpoint: { kind: 'top' }, follow: false })}
+          />
+          <Tool
+            label={t('reset')}
+            icon={IconView360Arrow}
+            onClick={() => onChange({ viewpoint: { kind: 'default' }, follow: true })}
+          />
+        </>
+      )}
+      {isBasic && !isMeasuring ? null : (
+        <Tool
+          label={t('measure')}
+          icon={IconRulerMeasure}
+          isPressed={isMeasuring}
+          onClick={() => setMeasuring(!isMeasuring)}
+        />
+      )}
       <Tool
         label={t('drive')}
         icon={IconDeviceGamepad2}

@@ -17,8 +17,15 @@ const node = (uid: number, parent: number, type: string, node_id: string, path =
   ...{ uid, parent, type, node_id, path, tree_id: 'Main', kind: 'Control', name: type },
 });
 const nodes = [node(1, 0, 'Sequence', 'r'), node(2, 1, 'IsFree', 'c'), node(3, 1, 'Forward', 'f')];
-const tick = (n: number, changed: readonly Pair[], flashed: readonly Pair[] = []) =>
-  act(() => feedLastTick({ command: 'tick', data: { n, changed, flashed } } as unknown as ServerMessage));
+const tick = (
+  n: number,
+  changed: readonly Pair[],
+  flashed: readonly Pair[] = [],
+  forced: readonly number[] = [],
+) =>
+  act(() =>
+    feedLastTick({ command: 'tick', data: { n, changed, flashed, forced } } as unknown as ServerMessage),
+  );
 const steps = () => screen.getAllByTestId('why-step').map(({ textContent }) => textContent);
 
 beforeEach(() => {
@@ -85,12 +92,58 @@ describe('why a block was ticked', () => {
     expect(screen.getByTestId('why-outcome')).toHaveTextContent('“IsFree” returned RUNNING');
   });
 
-  it('a halt explains nothing, and says so', () => {
+  it('a result that was forced is said to be forced, and leads to its block', () => {
+    show(<WhySection tree="Main" node="c" />);
+    tick(
+      1,
+      [],
+      [
+        [2, 'FAILURE'],
+        [1, 'FAILURE'],
+      ],
+      [2],
+    );
+    expect(steps()[1]).toBe(
+      '“Sequence” begins with its first child, “IsFree”. FAILUREforced in the debugger',
+    );
+    const outcome = screen.getByTestId('why-outcome');
+    expect(outcome).toHaveTextContent('“IsFree” is FAILURE because this was forced in the debugger.');
+    fireEvent.click(outcome);
+    expect(useProjectStore.getState().revealed).toMatchObject({ tree: 'Main', node: 'c' });
+  });
+
+  it('within a held tick it says what is ticked now, and explains the tick before', () => {
     show(<WhySection tree="Main" node="f" />);
-    tick(2, [[1, 'RUNNING']]);
-    tick(2, [[1, 'IDLE']]);
-    expect(screen.getByText(/was halted after this tick/)).toBeVisible();
-    expect(screen.queryByTestId('why-step')).toBeNull();
+    tick(4, [
+      [1, 'RUNNING'],
+      [2, 'SUCCESS'],
+      [3, 'RUNNING'],
+    ]);
+    const hold = { uid: 3, path: [1, 3], tick: 5, statuses: [] };
+    act(() => useSessionStore.setState({ executor: 'held', heldInPython: hold }));
+    expect(screen.getByTestId('why-held')).toHaveTextContent('It is being ticked now');
+    expect(screen.getByTestId('why-question')).toHaveTextContent('(tick 4)');
+    act(() => useSessionStore.setState({ heldInPython: { ...hold, uid: 2, path: [1, 2] } }));
+    expect(screen.getByTestId('why-held')).toHaveTextContent('The program is held within tick 5.');
+    act(() => useSessionStore.setState({ heldInPython: null }));
+    expect(screen.queryByTestId('why-held')).toBeNull();
+  });
+
+  it('after a halt it explains the tick before, and says that the tree was halted', () => {
+    show(<WhySection tree="Main" node="f" />);
+    tick(2, [
+      [1, 'RUNNING'],
+      [2, 'SUCCESS'],
+      [3, 'RUNNING'],
+    ]);
+    const before = steps();
+    tick(2, [
+      [1, 'IDLE'],
+      [2, 'IDLE'],
+      [3, 'IDLE'],
+    ]);
+    expect(screen.getByText('The tree was halted after this tick.')).toBeVisible();
+    expect(steps()).toEqual(before);
   });
 
   it('a block of a tree that is called twice has a choice of the call', () => {

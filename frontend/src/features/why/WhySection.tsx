@@ -5,8 +5,10 @@ import type { TreeNode } from '@/generated/messages';
 import { explain, type Step } from '@/model/why/explain';
 import type { Reason } from '@/model/why/verdict';
 import { useShownSession } from '@/store/moment/session';
+import { useIsBack } from '@/store/moment/store';
 import { useShownTick, useWhy } from '@/store/moment/why';
 import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
 import { nameOf, question, sentence, statusOf } from './sentence';
 import classes from './why.module.css';
 
@@ -55,6 +57,8 @@ function Answer({ instances }: { readonly instances: readonly TreeNode[] }) {
   const { t } = useTranslation('why');
   const [chosen, setChosen] = useState(0);
   const shown = useShownTick(true);
+  const hold = useSessionStore(({ held, heldInPython }) => held ?? heldInPython);
+  const isBack = useIsBack();
   const uid = (instances[chosen] ?? instances[0])?.uid ?? 0;
   const answer = useMemo(() => (shown ? explain(shown.facts, uid) : null), [shown, uid]);
   const last = answer?.steps.at(-1);
@@ -70,6 +74,11 @@ function Answer({ instances }: { readonly instances: readonly TreeNode[] }) {
           onChange={({ currentTarget }) => setChosen(Number(currentTarget.value))}
         />
       )}
+      {hold && !isBack && (
+        <p className={classes['note']} data-testid="why-held">
+          {t(hold.path.includes(uid) ? 'heldHere' : 'held', { n: hold.tick })}
+        </p>
+      )}
       {shown && answer && last ? (
         <>
           <p className={classes['question']} data-testid="why-question">
@@ -77,14 +86,17 @@ function Answer({ instances }: { readonly instances: readonly TreeNode[] }) {
             <span className={classes['tick']}>{t('tick', { n: shown.number })}</span>
           </p>
           {shown.isHalted && <p className={classes['note']}>{t('halted')}</p>}
-          {!shown.isHalted && (
-            <ol className={classes['steps']} aria-label={t('path')}>
-              {answer.steps.map((step) => (
-                <StepLine key={step.uid} step={step} nodes={shown.nodes} />
-              ))}
-              {answer.outcome && <OutcomeLine reason={answer.outcome} uid={uid} nodes={shown.nodes} />}
-            </ol>
-          )}
+          <ol className={classes['steps']} aria-label={t('path')}>
+            {answer.steps.map((step) => (
+              <StepLine
+                key={step.uid}
+                step={step}
+                nodes={shown.nodes}
+                isForced={shown.facts.forced?.has(step.uid) ?? false}
+              />
+            ))}
+            {answer.outcome && <OutcomeLine reason={answer.outcome} uid={uid} nodes={shown.nodes} />}
+          </ol>
         </>
       ) : (
         <p className={classes['note']}>{t('noTick')}</p>
@@ -97,7 +109,13 @@ const select = (node: TreeNode | undefined) => {
   if (node?.node_id) useProjectStore.getState().reveal(node.tree_id, node.node_id);
 };
 
-function StepLine({ step, nodes }: { readonly step: Step; readonly nodes: readonly TreeNode[] }) {
+interface StepProps {
+  readonly step: Step;
+  readonly nodes: readonly TreeNode[];
+  readonly isForced: boolean;
+}
+
+function StepLine({ step, nodes, isForced }: StepProps) {
   const { t } = useTranslation('why');
   const { uid, parent, verdict } = step;
   const status = statusOf(verdict);
@@ -115,6 +133,7 @@ function StepLine({ step, nodes }: { readonly step: Step; readonly nodes: readon
         <span className={classes['status']} data-status={status}>
           {t(`status.${status}`)}
         </span>
+        {isForced && <span className={classes['forced']}>{t('forced')}</span>}
       </button>
     </li>
   );
@@ -141,7 +160,7 @@ function OutcomeLine({ reason, uid, nodes }: OutcomeProps) {
         type="button"
         className={classes['step']}
         data-testid="why-outcome"
-        onClick={() => select(child)}
+        onClick={() => select(code === 'forced' ? nodes.find((node) => node.uid === uid) : child)}
       >
         {words}
       </button>

@@ -8,7 +8,7 @@ import { basics } from '@/features/code/basics';
 import { useProjectStore } from '@/store/project';
 import { problemsOf } from '@/store/project/problems';
 import type { XmlLink, XmlSnapshot } from '@/store/xml/link';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import { pieceThatDiffers } from './difference';
 import { findingMarks, problemMarks } from './marks';
 import { dimMetadata, hiddenMetadata, nodeAt, nodeRanges, rangesOf, setRanges, setSelected } from './ranges';

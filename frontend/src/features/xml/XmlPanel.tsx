@@ -3,6 +3,7 @@ import { IconAlertTriangle, IconCircleCheck, IconLoader2, IconPlugConnectedX } f
 import { useEffect, useState, useSyncExternalStore } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
+import { useUnsaved } from '@/store/saving/useUnsaved';
 import { XmlLink, type XmlSnapshot, type XmlState } from '@/store/xml/link';
 import { findingText } from '@/ui/findingText';
 import { XmlEditor } from './XmlEditor';
@@ -35,6 +36,7 @@ function TreeXml({ projectId, treeId }: { readonly projectId: string; readonly t
   const [shows, setShows] = useState(() => localStorage.getItem(SHOWS_KEY) === 'yes');
   useEffect(() => link.start(), [link]);
   const { state } = snapshot;
+  useUnsaved(['reading', 'broken', 'parted'].includes(state.kind));
   return (
     <div className={editor['frame']}>
       {state.kind === 'parted' ? <Parted link={link} /> : null}

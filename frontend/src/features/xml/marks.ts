@@ -3,7 +3,7 @@ import type { Text } from '@codemirror/state';
 import type { NodeRange } from '@/api/trees';
 import type { Diagnostic } from '@/api/types';
 import type { ShownProblem } from '@/store/project/problems';
-import type { ProblemText } from '@/ui/useProblemText';
+import type { ProblemText } from '@/ui/hooks/useProblemText';
 import { marksFor } from '@/features/code/diagnostics';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;

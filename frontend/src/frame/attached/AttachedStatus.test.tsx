@@ -4,7 +4,7 @@ import { attached } from '../../../harness/attached';
 import { openSession, show } from '../../../harness/testing';
 import { AttachedStatus } from './AttachedStatus';
 
-const none = { changed: [], flashed: [], past: [], duration_ms: 0 };
+const none = { changed: [], flashed: [], past: [], forced: [], duration_ms: 0 };
 
 it('shows the address, the age of the last status, and what could not be read', async () => {
   const executor = await openSession();

@@ -26,7 +26,7 @@ import { openBegun } from '@/store/route/begun';
 import { useSessionStore } from '@/store/session/store';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { attachedLayout } from '@/workspace/layoutModel';
-import { aimAt, closeGone, followFront, openTab, reopen, useTabs } from '@/workspace/tabs';
+import { aimAt, closeGone, followFront, openTab, showTree, reopen, useTabs } from '@/workspace/tabs';
 import { Dock } from '../Dock';
 import { followPast } from '../followPast';
 import classes from '../frame.module.css';
@@ -149,9 +149,11 @@ function AttachedWorkbench({ address }: { readonly address: string }) {
     ];
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
+      showTree,
       openFile: () => undefined,
       showFile: () => undefined,
       openTopics: () => undefined,
+      focusField: () => undefined,
       renamed: () => undefined,
       aimAt,
     });

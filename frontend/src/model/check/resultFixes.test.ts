@@ -17,9 +17,22 @@ function fixed(code: string, diagram: Diagram, id: string, port?: string): Diagr
 
 describe('fixes of what is known without running', () => {
   it('removes a branch that is never ticked where its parent can do without', () => {
-    expect(fixed('BT0114', pair('Sequence'), 'b').nodes['r']?.children).toEqual(['a']);
+    expect(fixed('BT0117', pair('Sequence'), 'b').nodes['r']?.children).toEqual(['a']);
     expect(resultFixes('BT0114', pair('IfThenElse'), 'b')).toEqual([]);
     expect(resultFixes('BT0117', pair('Parallel'), 'b', 'success_count')).toEqual([]);
+  });
+
+  it('moves a child that is never ticked before the one that keeps it from that, first of all', () => {
+    const { nodes } = pair('Fallback');
+    const fallback = tree({ ...nodes, a: { type: 'AlwaysSuccess', name: 'Turn' } });
+    const [move, remove] = resultFixes('BT0114', fallback, 'b');
+    expect([move?.key, move?.values, remove?.key]).toEqual([
+      'move-before',
+      { name: 'Turn' },
+      'remove-branch',
+    ]);
+    expect(edit(fallback, move!.does).diagram.nodes['r']?.children).toEqual(['b', 'a']);
+    expect(resultFixes('BT0114', fallback, 'r')).toEqual([]);
   });
 
   it('removes a condition that is always true', () => {

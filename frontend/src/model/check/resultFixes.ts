@@ -1,5 +1,5 @@
-import { childrenOf, freshId, parentOf, type Diagram, type NodeId } from '../diagram';
-import { removeSubtrees, setCondition, setPort, unwrap, wrap, type Recipe } from '../edits';
+import { childrenOf, displayName, freshId, parentOf, type Diagram, type NodeId } from '../diagram';
+import { moveNode, removeSubtrees, setCondition, setPort, unwrap, wrap, type Recipe } from '../edits';
 import { nodeOf } from '../edits/core';
 
 /** A change that repairs a finding of the server's check of results; its text is `editor:fix.<key>`. */
@@ -29,6 +29,15 @@ const SHRINKS = new Set([
   'ParallelAll',
 ]);
 
+/** Nodes of which a child keeps those behind it from being ticked, and whose children may change their order. */
+const ORDERED = new Set([
+  ...Object.keys(SEQUENCES),
+  ...Object.values(SEQUENCES),
+  'SequenceWithMemory',
+  'NonblockingSequence',
+  'PipelineSequence',
+]);
+
 const setType =
   (id: NodeId, type: string): Recipe =>
   (draft) => {
@@ -55,6 +64,16 @@ function ofBranch(diagram: Diagram, id: NodeId, port: string | undefined): Resul
   return shrinks ? [fix('remove-branch', removeSubtrees([id]))] : [];
 }
 
+/** The child before this one keeps it from being ticked: it goes before that one. */
+function beforeElder(diagram: Diagram, id: NodeId): ResultFix[] {
+  const parent = parentOf(diagram, id);
+  const siblings = parent === null ? [] : childrenOf(diagram, parent);
+  const index = siblings.indexOf(id) - 1;
+  const elder = diagram.nodes[siblings[index] ?? ''];
+  if (parent === null || !elder || !ORDERED.has(diagram.nodes[parent]?.type ?? '')) return [];
+  return [fix('move-before', moveNode(id, { at: 'child', parent, index }), { name: displayName(elder) })];
+}
+
 function ofParent(diagram: Diagram, id: NodeId, types: Readonly<Record<string, string>>): ResultFix[] {
   const parent = parentOf(diagram, id);
   const type = types[diagram.nodes[parent ?? '']?.type ?? ''];
@@ -68,6 +87,7 @@ export function resultFixes(code: string, diagram: Diagram, id: NodeId, port?: s
   const [child] = childrenOf(diagram, id);
   switch (code) {
     case 'BT0114':
+      return [...beforeElder(diagram, id), ...ofBranch(diagram, id, port)];
     case 'BT0117':
       return ofBranch(diagram, id, port);
     case 'BT0118':

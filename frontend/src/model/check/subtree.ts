@@ -20,7 +20,7 @@ function checkValue(id: NodeId, port: PortSpec, text: string): Problem[] {
 }
 
 function checkPort(id: NodeId, name: string, text: string, declared: PortSpec | undefined): Problem[] {
-  const named = isPortName(name) ? [] : [atPort('bad-port-name', id, name)];
+  const named = isPortName(name) ? [] : [atPort('bad-port-name', id, name, {}, 'warning')];
   const braces = checkBraces(id, name, text);
   return [...named, ...braces, ...(declared && braces.length === 0 ? checkValue(id, declared, text) : [])];
 }
@@ -41,7 +41,7 @@ function checkGiven(id: NodeId, node: DiagramNode, ports: readonly PortSpec[]): 
     found.push({ kind: 'bad-autoremap', severity: 'error', node: id, values: { text: autoremap } });
   }
   if (/^(?:true|1)$/i.test(autoremap ?? '')) return found;
-  const missing = ports.filter((port) => !(port.name in given) && port.default === null);
+  const missing = ports.filter((port) => !(port.name in given) && !port.default);
   return [
     ...found,
     ...missing.map((port) => atPort('missing-tree-port', id, port.name, { tree: node.tree ?? '' })),

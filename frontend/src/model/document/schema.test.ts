@@ -19,8 +19,12 @@ describe('checkSchema', () => {
   });
 
   it.each<[string, JsonObject, JsonObject]>([
-    ['a wrong type', { id: 7 }, { path: [...at, 'id'], kind: 'text', params: {} }],
-    ['a wrong choice', { solid: 'yes' }, { path: [...at, 'solid'], kind: 'boolean', params: {} }],
+    ['a wrong type', { id: 7 }, { path: [...at, 'id'], kind: 'textWrite', params: { write: '"7"' } }],
+    [
+      'a wrong choice',
+      { solid: 'yes' },
+      { path: [...at, 'solid'], kind: 'booleanWrite', params: { write: 'true' } },
+    ],
     ['a number that is none', { mass: NaN }, { path: [...at, 'mass'], kind: 'number', params: {} }],
     ['no color', { color: 'red' }, { path: [...at, 'color'], kind: 'color', params: {} }],
     ['no name', { id: '1 2' }, { path: [...at, 'id'], kind: 'name', params: {} }],

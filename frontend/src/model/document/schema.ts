@@ -1,8 +1,9 @@
 import type { ErrorObject } from 'ajv';
 import { similarNames } from '../similar';
+import { intended, isWanted } from './intended';
 import { isObject, type Json, type Path } from './values';
 
-/** A fault of a document; `kind` names a text of `universe:problem`, and `params` fill it in. */
+/** A fault of a document; `kind` names a text of `editor3d:problem`, and `params` fill it in. */
 export interface Issue {
   readonly path: Path;
   readonly kind: string;
@@ -126,6 +127,7 @@ const TYPES: Readonly<Record<string, string>> = {
   string: 'text',
   boolean: 'boolean',
   number: 'number',
+  integer: 'integer',
 };
 
 /**
@@ -134,8 +136,9 @@ const TYPES: Readonly<Record<string, string>> = {
  */
 function wrongType(path: Path, type: string, value: unknown): Issue | null {
   if (type === 'null') return null;
-  const isNumber = type === 'integer' && Number.isFinite(value);
-  return { path, kind: isNumber ? 'integer' : (TYPES[type] ?? 'number'), params: {} };
+  const kind = TYPES[type] ?? 'number';
+  const write = isWanted(kind) ? intended(value, kind) : null;
+  return write === null ? { path, kind, params: {} } : { path, kind: `${kind}Write`, params: { write } };
 }
 
 function wrongLength(path: Path, keyword: string, schema: Readonly<Record<string, unknown>>): Issue {

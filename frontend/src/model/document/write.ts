@@ -1,6 +1,6 @@
 import { isObject, type Json, type JsonObject } from './values';
 
-/** Words that YAML 1.1 does not read as strings. */
+/** Words that some version of YAML does not read as strings. */
 const WORDS = /^(y|n|yes|no|on|off|true|false|null|nan|inf)$/i;
 const PLAIN = /^[A-Za-z_/][\w./-]*$/;
 

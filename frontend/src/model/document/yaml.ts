@@ -2,8 +2,14 @@ import { isMap, isScalar, isSeq, LineCounter, parseDocument, type Document, type
 import type { Issue } from './schema';
 import type { Json, Path } from './values';
 
-/** The options of the YAML library. The simulator reads YAML 1.1. */
-export const YAML_OPTIONS = { version: '1.1', uniqueKeys: true, logLevel: 'silent' } as const;
+/** The options of the YAML library: the core schema of YAML 1.2, as the simulator and the terminal read it. */
+export const YAML_OPTIONS = {
+  version: '1.2',
+  schema: 'core',
+  merge: false,
+  uniqueKeys: true,
+  logLevel: 'silent',
+} as const;
 
 /** The number of cached texts: the texts before and after the last edit are read repeatedly. */
 const KEPT = 3;

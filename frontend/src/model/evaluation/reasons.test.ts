@@ -20,3 +20,11 @@ it('knows nothing else: the errors of actions stay as they are', () => {
   expect(reasonIn('actions/Go.py:3:1: ValueError: all items hold')).toBeNull();
   expect(reasonIn('')).toBeNull();
 });
+
+it('knows the sentence of old results that is no longer written', () => {
+  expect(
+    reasonIn(
+      'launch/a.launch.py:1:1: a project with launch files cannot be evaluated: its nodes run in real time',
+    ),
+  ).toEqual({ key: 'launchFiles', values: { file: 'launch/a.launch.py' } });
+});

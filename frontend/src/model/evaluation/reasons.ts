@@ -22,6 +22,8 @@ const PATTERNS = {
   cpuLimit: /^the run took more than its limit of processor time$/,
   realLimit: /^the run took more than its limit of real time$/,
   memoryLimit: /^the processes of the run took more than their limit of memory$/,
+  processesLimit: /^the run started more processes than it may$/,
+  writtenLimit: /^the actions of the run wrote more than they may$/,
   signalIn: /^the process of the run ended with (?<signal>SIG\w+) in (?<place>.+)$/,
   signal: /^the process of the run ended with (?<signal>SIG\w+)$/,
   status: /^the process of the run ended by itself with status (?<status>\d+)$/,
@@ -34,8 +36,11 @@ const PATTERNS = {
   workerLost: /^its worker was lost (?<times>\d+) times$/,
   undecided: /^the run ended before it was decided$/,
   noWorld: /^project\.json:1:1: a project without a simulated world \(universe none\) cannot be evaluated$/,
+  // Of results from before launch nodes were left out.
   launchFiles:
     /^(?<file>\S+):1:1: a project with launch files cannot be evaluated: its nodes run in real time$/,
+  launchNode:
+    /^(?<place>\S+): the launch node (?<name>.+) is left out: it runs in real time, and this run in simulated time$/,
   noRobot: /^(?<file>\S+):1:1: the universe has no robot, so there is nothing to judge$/,
   treeAlone:
     /^(?<file>\S+):1:1: the judge asks for the result of the tree alone, which sealed actions only claim \(.+\)$/,

@@ -42,7 +42,10 @@ export interface Joint {
   readonly child: string;
   /** The pose in the frame of the parent link. */
   readonly origin: Pose;
+  /** The direction of the axis, of length 1. */
   readonly axis: Vector;
+  /** The axis as it is written. */
+  readonly writtenAxis: Vector;
   /** The limits of the joint, rad or m; null if it has none. */
   readonly limits: readonly [number, number] | null;
 }
@@ -62,6 +65,9 @@ export interface Urdf {
 export interface UrdfIssue extends Issue {
   readonly offset: number;
 }
+
+const LIMITED: ReadonlySet<string> = new Set(['revolute', 'prismatic']);
+const JOINT_KINDS: ReadonlySet<string> = new Set([...LIMITED, 'fixed', 'continuous']);
 
 export const GREY: readonly number[] = [0.6, 0.6, 0.6, 1];
 
@@ -204,23 +210,42 @@ function jointOf(element: XmlElement, name: string, findings: Findings): Joint {
   const parent = child(element, 'parent');
   const below = child(element, 'child');
   if (!parent || !below) findings.add(element, 'jointEnds', { joint: name });
-  const [x = 1, y = 0, z = 0] = findings.numbers(child(element, 'axis'), 'xyz', [1, 0, 0]);
+  const type = attribute(element, 'type') ?? 'fixed';
+  if (!JOINT_KINDS.has(type)) findings.add(element, 'jointType', { joint: name, type });
+  const axis = child(element, 'axis');
+  const [x = 1, y = 0, z = 0] = findings.numbers(axis, 'xyz', [1, 0, 0]);
+  const length = Math.hypot(x, y, z);
+  if (axis && length === 0 && type !== 'fixed') findings.add(axis, 'noAxis', { joint: name });
   return {
     name,
     element,
-    type: attribute(element, 'type') ?? 'fixed',
+    type,
     parent: attribute(parent, 'link') ?? '',
     child: attribute(below, 'link') ?? '',
     origin: originOf(element, findings),
-    axis: [x, y, z],
-    limits: limitsOf(child(element, 'limit'), findings),
+    axis: length === 0 ? [1, 0, 0] : [x / length, y / length, z / length],
+    writtenAxis: [x, y, z],
+    limits: limitsOf(element, name, type, findings),
   };
 }
 
-function limitsOf(limit: XmlElement | undefined, findings: Findings): Joint['limits'] {
-  if (!limit) return null;
+/** Returns the limits of a joint, by the rules of ROS's own parser. */
+function limitsOf(element: XmlElement, joint: string, type: string, findings: Findings): Joint['limits'] {
+  const controller = child(element, 'safety_controller');
+  if (controller && attribute(controller, 'k_velocity') === undefined)
+    findings.add(controller, 'jointNeeds', { joint, tag: controller.tag, name: 'k_velocity' });
+  const limit = child(element, 'limit');
+  if (!limit) {
+    if (LIMITED.has(type)) findings.add(element, 'noLimit', { joint, type });
+    return null;
+  }
+  for (const name of ['effort', 'velocity']) {
+    if (attribute(limit, name) === undefined)
+      findings.add(limit, 'jointNeeds', { joint, tag: limit.tag, name });
+  }
   const [lower = 0] = findings.numbers(limit, 'lower', [0]);
   const [upper = 0] = findings.numbers(limit, 'upper', [0]);
+  if (LIMITED.has(type) && lower > upper) findings.add(limit, 'limitOrder', { joint, lower, upper });
   return [lower, upper];
 }
 

@@ -1,3 +1,4 @@
+import { LIMITS } from '@/generated/limits';
 import { outside } from '../values';
 import { tokenize, type Token } from './lexer';
 import type { ScriptProblem, Span } from './problem';
@@ -31,7 +32,7 @@ const BINARY = new Map([
   ...(['*', '/'] as const).map((each) => [each, 9] as const),
 ] as [string, number][]);
 const [ASSIGNMENT, TERNARY, COMPARISON] = [1, 2, 5];
-const MAX_NESTING = 100;
+const MAX_NESTING = 250;
 
 /** An operand: a name, or null for any other expression. */
 type Operand = ScriptName | null;
@@ -77,17 +78,22 @@ class Parser {
     throw new Refused({ kind, values, span: this.token.span });
   }
 
-  private expression(level: number): Operand {
+  /** Parses an expression within another one, other than the right side of an operator. */
+  private nested(level: number): Operand {
     this.nesting += 1;
     if (this.nesting > MAX_NESTING) this.fail('nested');
+    const inner = this.expression(level);
+    this.nesting -= 1;
+    return inner;
+  }
+
+  private expression(level: number): Operand {
     let left = this.operand();
     for (;;) {
       const extended = this.extend(left, level);
-      if (extended === undefined) break;
+      if (extended === undefined) return left;
       left = extended;
     }
-    this.nesting -= 1;
-    return left;
   }
 
   /** Parses the next operator; undefined if it binds less tightly than `level`. */
@@ -117,16 +123,16 @@ class Parser {
       this.written.push(target);
       if (operator === ':=') this.created.add(target);
     }
-    this.expression(ASSIGNMENT);
+    this.nested(ASSIGNMENT);
     return null;
   }
 
   private conditional(): null {
     this.index += 1;
-    this.expression(ASSIGNMENT);
+    this.nested(ASSIGNMENT);
     if (!this.is(':')) this.fail('colon');
     this.index += 1;
-    this.expression(TERNARY);
+    this.nested(TERNARY);
     return null;
   }
 
@@ -160,7 +166,7 @@ class Parser {
 
   private group(): Operand {
     this.index += 1;
-    const inner = this.expression(ASSIGNMENT);
+    const inner = this.nested(ASSIGNMENT);
     if (!this.is(')')) this.fail('parenthesis');
     this.index += 1;
     return inner;
@@ -169,6 +175,11 @@ class Parser {
 
 /** Returns the names that a script reads and writes, or its syntax error. */
 export function readScript(text: string): ScriptFacts | ScriptProblem {
+  const limit = LIMITS.script_characters;
+  // Code points, as Python counts; two units of UTF-16 are one character.
+  if (text.length > limit && [...text].length > limit) {
+    return { kind: 'tooLong', values: { limit: String(limit) }, span: [0, 0] };
+  }
   const tokens = tokenize(text);
   if (!Array.isArray(tokens)) return tokens as ScriptProblem;
   const parser = new Parser(tokens as readonly Token[]);

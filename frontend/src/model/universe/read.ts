@@ -165,5 +165,6 @@ function actorOf(
     speed: number(said['speed'], 0.5),
     loop: flag(said['loop'], true),
     start_m: number(said['start_m'], 0),
+    yields: flag(said['yields'], false),
   };
 }

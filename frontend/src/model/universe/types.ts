@@ -66,6 +66,8 @@ export interface ActorThing extends Placed {
   readonly speed: number;
   readonly loop: boolean;
   readonly start_m: number;
+  /** Whether the person waits for a robot in the way. */
+  readonly yields: boolean;
 }
 
 export interface RobotThing extends Placed {

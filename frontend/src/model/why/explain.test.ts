@@ -158,6 +158,24 @@ describe('the path to a node', () => {
     expect(steps?.at(-1)?.verdict).toMatchObject({ ticked: 'no', reason: { code: 'passed' } });
   });
 
+  it('says that a result was forced, and does not explain the nodes below by a rule', () => {
+    const of = (uid: number, more: Partial<TickFacts>) => explain({ ...facts, ...more }, uid);
+    const forced = { forced: new Set([2]), flashed: [[2, 'FAILURE'] as const] };
+    expect(of(2, forced)?.outcome).toEqual({ code: 'forced', status: 'FAILURE' });
+    expect(of(3, forced)?.steps.at(-1)?.verdict).toMatchObject({
+      ticked: 'no',
+      reason: { code: 'parentForced', status: 'FAILURE' },
+    });
+    // The result was replaced after the tick: what its children returned stays true.
+    const after = { ...forced, flashed: [[3, 'SUCCESS'] as const, ...forced.flashed] };
+    expect(of(3, after)?.steps.at(-1)?.verdict).toMatchObject({ ticked: 'yes', result: 'SUCCESS' });
+    // A frozen node changes nothing, and is ticked all the same.
+    const before = new Map([[1, 'RUNNING'] as const, [5, 'RUNNING'] as const]);
+    const frozen = of(5, { before, changed: [], flashed: [], forced: new Set([5]) });
+    expect(frozen?.steps.at(-1)?.verdict).toMatchObject({ ticked: 'yes', result: 'RUNNING' });
+    expect(frozen?.outcome).toMatchObject({ code: 'forced', status: 'RUNNING' });
+  });
+
   it('is null for a node of another tree', () => {
     expect(explain(facts, 99)).toBeNull();
   });

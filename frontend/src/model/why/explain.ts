@@ -32,6 +32,7 @@ type Trust = 'all' | 'traces' | 'none';
 /** Returns the verdicts for the children of a node. */
 function judge(node: NodeFacts, { ticked, result }: Verdict, trust: Trust): readonly Verdict[] {
   const { children } = node;
+  if (node.isForced && ticked !== 'no') return children.map((child) => belowForced(node, child));
   if (ticked === 'unknown') return children.map(() => unknown());
   if (ticked === 'no') return children.map((child) => whileHalted(node, child));
   const rule = RULES[node.type];
@@ -41,6 +42,12 @@ function judge(node: NodeFacts, { ticked, result }: Verdict, trust: Trust): read
   const judged = rule({ node, result });
   if (trust === 'all') return judged;
   return judged.map((each, at) => (children[at]?.isEvident ? each : unknown()));
+}
+
+/** Returns the verdict for a child of a node whose result was forced, in place of its tick or after it. */
+function belowForced({ last }: NodeFacts, child: NodeFacts): Verdict {
+  if (child.isEvident) return yes(child.last, { code: 'notRecorded' });
+  return no({ code: 'parentForced', ...(last === null ? {} : { status: last }) });
 }
 
 /** Returns the verdict for a child of a node that was not ticked; a halt can tick the last child of TryCatch. */
@@ -104,7 +111,10 @@ export function verdicts(facts: TickFacts): Map<number, Verdict> {
 }
 
 function outcomeOf(node: NodeFacts, verdict: Verdict, trust: Trust): Reason | null {
-  if (verdict.ticked !== 'yes' || node.children.length === 0) return null;
+  if (verdict.ticked !== 'yes') return null;
+  if (node.isForced)
+    return { code: 'forced', ...(verdict.result === null ? {} : { status: verdict.result }) };
+  if (node.children.length === 0) return null;
   const judged = judge(node, verdict, trust);
   const ticked = judged.flatMap((each, at) => {
     const child = node.children[at];

@@ -12,6 +12,8 @@ export interface TickFacts {
   readonly changed: readonly Pair[];
   /** Results within the tick that did not stay, in order. */
   readonly flashed: readonly Pair[];
+  /** The nodes whose result was forced by the debugger. */
+  readonly forced?: ReadonlySet<number>;
   /** The names of the pre-conditions of a node; null if they are not known. */
   readonly conditions: (uid: number) => readonly string[] | null;
 }
@@ -31,6 +33,8 @@ export interface NodeFacts {
   readonly last: NodeStatus | null;
   /** Whether the node was certainly ticked more than once in the tick. */
   readonly isRepeated: boolean;
+  /** Whether its result was forced by the debugger. */
+  readonly isForced: boolean;
   readonly conditions: readonly string[] | null;
 }
 
@@ -44,6 +48,7 @@ export function readFacts({
   before,
   changed,
   flashed,
+  forced,
   conditions,
 }: TickFacts): Map<number, NodeFacts> {
   const newly = new Map(changed);
@@ -56,9 +61,13 @@ export function readFacts({
   const all = new Map<number, Growing>();
   for (const { uid, parent, type, kind } of nodes) {
     const was = before.get(uid) ?? 'IDLE';
+    const after = newly.get(uid) ?? was;
+    const own = ownResult(was, newly.get(uid) ?? null, results.get(uid) ?? []);
+    const isForced = forced?.has(uid) ?? false;
     const node: Growing = {
-      ...{ uid, parent, type, kind, children: [], before: was, after: newly.get(uid) ?? was },
-      ...ownResult(was, newly.get(uid) ?? null, results.get(uid) ?? []),
+      ...{ uid, parent, type, kind, children: [], before: was, after, ...own, isForced },
+      // A frozen node is RUNNING from one tick to the next, and nothing changes.
+      ...(isForced && !own.isEvident ? { isEvident: true, last: after } : {}),
       conditions: conditions(uid),
     };
     all.set(uid, node);

@@ -45,7 +45,9 @@ export const REASONS = [
   'notUpdated',
   'noCycle',
   'noElement',
+  'parentForced',
   // Either.
+  'forced',
   'own',
   'several',
   'notRecorded',

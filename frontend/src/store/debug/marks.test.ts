@@ -22,7 +22,7 @@ const forced: Forced = {
   alone: 4,
 };
 
-it('marks where the tree is held and what is forced, in the present alone', () => {
+it('marks where the tree is held and what is forced now', () => {
   onTestFinished(() => {
     useMoment.setState(atPresent);
     useSessionStore.setState(initialSession);
@@ -46,4 +46,32 @@ it('marks where the tree is held and what is forced, in the present alone', () =
   expect(useDebugMarks.getState().held.size).toBe(3);
   useSessionStore.setState({ held: null, forced: null });
   expect(useDebugMarks.getState().held.size + useDebugMarks.getState().forced.size).toBe(0);
+});
+
+it('marks the block whose Python is held, as at a hold at a block', () => {
+  onTestFinished(() => useSessionStore.setState(initialSession));
+  onTestFinished(followMarks());
+  useSessionStore.setState({ tree, heldInPython: { uid: 3, path: [1, 3], tick: 2, statuses: [] } });
+  expect([...useDebugMarks.getState().held]).toEqual([
+    ['Main/r', 'path'],
+    ['Main/b', 'here'],
+  ]);
+  useSessionStore.setState({ heldInPython: null });
+  expect(useDebugMarks.getState().held.size).toBe(0);
+});
+
+it('marks in the past the blocks whose result was forced in the shown tick', () => {
+  onTestFinished(() => useMoment.setState(atPresent));
+  onTestFinished(followMarks());
+  const shown = { forced: [2, 3], statuses: [[3, 'RUNNING']], flashes: [[2, 'FAILURE']] };
+  const look = (moment: unknown) =>
+    useMoment.setState({ t: 1, tree, shown: moment } as unknown as ReturnType<typeof useMoment.getState>);
+  look(shown);
+  const marks = () => [...useDebugMarks.getState().forced];
+  expect(marks().map(([key, { status }]) => [key, status])).toEqual([
+    ['Main/a', 'FAILURE'],
+    ['Main/b', 'RUNNING'],
+  ]);
+  look({ ...shown, forced: [] });
+  expect(marks()).toEqual([]);
 });

@@ -1,5 +1,5 @@
 import { create } from 'zustand';
-import type { Forced, Held, ResultName, TreeNode } from '@/generated/messages';
+import type { Forced, Held, NodeStatus, ResultName, TreeNode } from '@/generated/messages';
 import { isLookingBack, useMoment } from '@/store/moment/store';
 import { liveKey, type LiveKey } from '@/store/project/live';
 import { useSessionStore } from '@/store/session/store';
@@ -24,26 +24,28 @@ interface DebugMarks {
 const NO_HOLD: DebugMarks['held'] = new Map();
 const NOTHING: DebugMarks['forced'] = new Map();
 
-/** The marks of the debugger on the blocks, of the present: none while the page shows the past. */
+/** The marks of the debugger on the blocks. In the past the tree is held nowhere; what was forced is marked. */
 export const useDebugMarks = create<DebugMarks>(() => ({ held: NO_HOLD, forced: NOTHING }));
 
 /** Keeps the marks as the session tells them. */
 export function followMarks(): () => void {
   const show = () => {
-    const { tree, held, forced } = useSessionStore.getState();
+    const { tree, held, heldInPython, forced } = useSessionStore.getState();
+    const hold = held ?? (heldInPython && { ...heldInPython, ahead: [] });
     const isBack = isLookingBack();
     useDebugMarks.setState({
-      held: held && !isBack ? heldMarks(tree, held) : NO_HOLD,
-      forced: forced && !isBack ? forcedMarks(tree, forced) : NOTHING,
+      held: hold && !isBack ? heldMarks(tree, hold) : NO_HOLD,
+      forced: isBack ? pastMarks() : forced ? forcedMarks(tree, forced) : NOTHING,
     });
   };
   show();
   const stops = [
     useSessionStore.subscribe((now, before) => {
-      if (now.held !== before.held || now.forced !== before.forced || now.tree !== before.tree) show();
+      const has = ({ held, heldInPython, forced, tree }: typeof now) => [held, heldInPython, forced, tree];
+      if (has(now).some((each, at) => each !== has(before)[at])) show();
     }),
     useMoment.subscribe((now, before) => {
-      if ((now.t === null) !== (before.t === null)) show();
+      if (now.shown !== before.shown || (now.t === null) !== (before.t === null)) show();
     }),
   ];
   return () => {
@@ -52,7 +54,10 @@ export function followMarks(): () => void {
   };
 }
 
-function heldMarks(tree: readonly TreeNode[], held: Held): DebugMarks['held'] {
+function heldMarks(
+  tree: readonly TreeNode[],
+  held: Pick<Held, 'uid' | 'path' | 'ahead'>,
+): DebugMarks['held'] {
   const marks = new Map<LiveKey, HeldMark>();
   const put = (uids: readonly number[], mark: HeldMark) =>
     uids.forEach((uid) => {
@@ -62,6 +67,21 @@ function heldMarks(tree: readonly TreeNode[], held: Held): DebugMarks['held'] {
   put(held.ahead, 'ahead');
   put(held.path, 'path');
   put([held.uid], 'here');
+  return marks;
+}
+
+/** The nodes whose result was forced in the tick that is shown. */
+function pastMarks(): DebugMarks['forced'] {
+  const { shown, tree } = useMoment.getState();
+  if (!shown?.forced.length) return NOTHING;
+  const results = new Map<number, NodeStatus>([...shown.statuses, ...shown.flashes]);
+  const marks = new Map<LiveKey, ForcedMark>();
+  for (const uid of shown.forced) {
+    const { tree_id = '', node_id = '' } = tree[uid - 1] ?? {};
+    const status = results.get(uid) ?? 'SKIPPED';
+    if (status !== 'IDLE')
+      marks.set(liveKey(tree_id, node_id), { status, once: false, after: false, alone: false });
+  }
   return marks;
 }
 

@@ -45,7 +45,7 @@ async function give(): Promise<void> {
     await send('set_breakpoints', data);
   } catch (error) {
     if (isUnconnected(error)) return;
-    refusal = error instanceof Error ? reasonOf(error) : String(error);
+    refusal = reasonOf(error);
   }
   if (useBreakpoints.getState().refusal !== refusal) useBreakpoints.setState({ refusal });
 }

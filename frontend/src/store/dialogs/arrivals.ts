@@ -1,6 +1,10 @@
 import { create } from 'zustand';
+import { notifications } from '@mantine/notifications';
+import { reasonOf } from '@/api/reason';
 import type { Insertion } from '@/model/reuse';
 import { planHere, type Delivery } from '@/store/project/bringing';
+import { useProjectStore } from '@/store/project';
+import { withTexts } from '@/store/saving/large';
 
 /** Files that the user reviews before they are added to the project. */
 export interface Arrivals extends Delivery {
@@ -21,6 +25,17 @@ export const closeArrivals = () => useArrivals.setState({ arrivals: null });
  * library if another file has the name of one.
  */
 export function bring(arrivals: Arrivals): void {
+  const { files } = useProjectStore.getState();
+  const large = Object.keys(arrivals.sources).filter((path) => files[path]?.kind === 'large');
+  if (large.length === 0) review(arrivals);
+  else void withTexts(large).then(() => review(arrivals), tell);
+}
+
+function tell(error: unknown): void {
+  notifications.show({ color: 'red', message: reasonOf(error) });
+}
+
+function review(arrivals: Arrivals): void {
   const plan = planHere(arrivals);
   const asks = plan.arrivals.some(({ state }) =>
     arrivals.act === 'paste' ? state !== 'same' : state === 'rename',

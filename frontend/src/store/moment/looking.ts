@@ -397,6 +397,7 @@ function show(moment: Moment): void {
   live.setMoment({
     statuses: moment.statuses,
     flashed: moment.flashes,
+    halted: moment.halted,
     faults: faults.map(({ uid, message }) => [uid, message]),
   });
   usePastSession.setState(

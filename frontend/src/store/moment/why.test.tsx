@@ -66,13 +66,14 @@ describe('the shown tick', () => {
         tree: nodes.map((node) => ({ ...node, ports: {} })),
         shown: {
           ...{ t: 1, tick: 5, tickT: 1, durationMs: 1, generation: 1, tree: null, files: null },
-          ...{ statuses: [[2, 'RUNNING']], was: [[2, 'IDLE']], flashes: [[1, 'SKIPPED']] },
-          ...{ entries: [], scene: null, sceneId: -1, poses: null, scan: null, pictures: [], isHalted: true },
+          ...{ statuses: [[2, 'RUNNING']], was: [[2, 'IDLE']], flashes: [[1, 'SKIPPED']], forced: [1] },
+          ...{ entries: [], scene: null, sceneId: -1, poses: null, scan: null, pictures: [], halted: null },
         },
       }),
     );
-    expect(result.current).toMatchObject({ number: 5, isHalted: true });
+    expect(result.current).toMatchObject({ number: 5, isHalted: false });
     expect(result.current?.facts).toMatchObject({ changed: [[2, 'RUNNING']], flashed: [[1, 'SKIPPED']] });
+    expect(result.current?.facts.forced).toEqual(new Set([1]));
   });
 });
 

@@ -5,13 +5,15 @@ import type { TickFacts } from '@/model/why/facts';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
-import { useLastTick, type LastTick } from '@/store/session/trace/lastTick';
+import { useViewMode } from '@/store/viewMode';
+import { useLastTick } from '@/store/session/trace/lastTick';
+import type { Ticked } from '@/store/recording/types';
 import { useSource } from './source';
 import { useMoment } from './store';
 
-/** Whether *Why?* is open; `asked` increases with each request. */
+/** Whether *Why?* is open, as it is first in the basic page; `asked` increases with each request. */
 export const useWhy = create<{ readonly isOpen: boolean; readonly asked: number }>(() => ({
-  isOpen: false,
+  isOpen: useViewMode.getState().mode === 'basic',
   asked: 0,
 }));
 
@@ -31,7 +33,7 @@ const PRE_CONDITIONS = ['_failureIf', '_successIf', '_skipIf', '_while'];
 /** Returns the known data of a tick; the pre-conditions are known only for the tree as it ran. */
 export function tickFacts(
   nodes: readonly TreeNode[],
-  { statuses, was, flashes }: Pick<LastTick, 'statuses' | 'was' | 'flashes'>,
+  { statuses, was, flashes, forced }: Ticked,
   isAsItRan: boolean,
 ): TickFacts {
   const after = new Map(statuses);
@@ -43,6 +45,7 @@ export function tickFacts(
     before,
     changed: was.map(([uid]) => [uid, after.get(uid) ?? 'IDLE'] as const),
     flashed: flashes,
+    forced: new Set(forced),
     conditions: (uid) => {
       const { tree_id = '', node_id = '' } = byUid.get(uid) ?? {};
       const block = isAsItRan ? diagrams[tree_id]?.nodes[node_id] : undefined;
@@ -65,6 +68,7 @@ export function useShownTick(isWanted: boolean): ShownTick | null {
     const last = shown ? { ...shown, number: shown.tick } : live;
     const nodes = shown ? pastNodes : liveNodes;
     if (!last || last.number === 0 || nodes.length === 0) return null;
-    return { number: last.number, isHalted: last.isHalted, nodes, facts: tickFacts(nodes, last, isAsItRan) };
+    const { number, halted } = last;
+    return { number, isHalted: halted !== null, nodes, facts: tickFacts(nodes, halted ?? last, isAsItRan) };
   }, [isWanted, shown, live, pastNodes, liveNodes, isAsItRan]);
 }

@@ -42,6 +42,7 @@ const listed = (more: Partial<ProblemSources>) =>
     diagrams: { Main: tree('Main', { type: 'AlwaysSuccess' }) },
     vocabulary,
     diagnostics: [],
+    robots: null,
     served: {},
     linted: {},
     errors: {},
@@ -90,6 +91,8 @@ describe('the list', () => {
       values: { topic: '/scan', publisher: '/world', wanted: 'b' },
     });
     expect(shown({ mismatches: [mismatch] })).toEqual([['error', 'type', null, null]]);
+    const missing: TopicMismatch = { ...mismatch, reason: 'nobody', code: 'unpublished' };
+    expect(shown({ mismatches: [missing] })).toEqual([['warning', 'unpublished', null, null]]);
   });
 
   it('has a finding of a save once: in the newer version of the editor, the language server or ruff', () => {

@@ -5,6 +5,7 @@ import { CODES } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
 import type { CodeFinding } from '@/store/language';
 import { problemsOf, type ShownProblem } from '@/store/project/problems';
+import { NOT_LOOKED_AT } from './robots';
 import { isSuperseded, lintFindings } from './syntax';
 import type { Linted, TextErrors } from './texts';
 import { placeOfTopic } from './topicPlace';
@@ -32,6 +33,8 @@ export interface ProblemSources {
   readonly diagrams: ByPath<Diagram>;
   readonly vocabulary: Vocabulary;
   readonly diagnostics: readonly Diagnostic[];
+  /** The findings in robots with macros; null if nobody has looked at them. */
+  readonly robots: readonly Diagnostic[] | null;
   readonly served: ByPath<readonly CodeFinding[]>;
   readonly linted: ByPath<Linted>;
   readonly errors: ByPath<TextErrors>;
@@ -92,15 +95,17 @@ function faultRow(fault: Fault, { files }: ProblemSources): ListedProblem {
 }
 
 function topicRow(mismatch: TopicMismatch, sources: ProblemSources): ListedProblem {
-  const { topic, publisher, subscriber, code, values } = mismatch;
+  const { topic, publisher, subscriber, code, reason, values } = mismatch;
+  // An end that is missing may still come.
+  const severity: Severity = reason === 'nobody' ? 'warning' : 'error';
   const problem: ShownProblem = {
     source: 'topic',
-    severity: 'error',
+    severity,
     node: null,
     code,
     values: { ...values, topic, publisher, subscriber },
   };
-  return { ...NOWHERE, problem, severity: 'error', code, topic, ...placeOfTopic(mismatch, sources) };
+  return { ...NOWHERE, problem, severity, code, topic, ...placeOfTopic(mismatch, sources) };
 }
 
 function treeRows(diagram: Diagram, { vocabulary, diagnostics }: ProblemSources): ListedProblem[] {
@@ -114,8 +119,11 @@ function treeRows(diagram: Diagram, { vocabulary, diagnostics }: ProblemSources)
 }
 
 function savedRows(sources: ProblemSources): ListedProblem[] {
-  const { diagnostics, diagrams, served, linted, errors } = sources;
-  return diagnostics
+  const { diagnostics, robots, diagrams, served, linted, errors } = sources;
+  const saved = robots
+    ? [...diagnostics.filter(({ code }) => code !== NOT_LOOKED_AT), ...robots]
+    : diagnostics;
+  return saved
     .filter(({ tree }) => !tree || !(tree in diagrams))
     .filter((item) => {
       const path = item.file ?? '';

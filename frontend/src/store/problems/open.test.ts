@@ -1,7 +1,8 @@
 import { expect, it } from 'vitest';
 import { watchNavigation } from '../../../harness/testing';
 import type { ListedProblem } from './list';
-import { openProblem } from './open';
+import { useProjectStore } from '@/store/project';
+import { openBlock, openProblem } from './open';
 
 it('opens the line of a file, the tree, or the topics', () => {
   const { openFile, openTree, openTopics } = watchNavigation();
@@ -22,4 +23,19 @@ it('opens the line of a file, the tree, or the topics', () => {
   expect(openFile).toHaveBeenNthCalledWith(1, 'actions/Go.py', 3);
   expect(openFile).toHaveBeenNthCalledWith(2, 'actions/Scan.py', 5);
   expect(openTree).toHaveBeenCalledExactlyOnceWith('Main');
+});
+
+it('leads to a block, and into the field of the port that is meant, never into the file of the tree', () => {
+  const { openFile, openTree, focusField } = watchNavigation();
+  openBlock({ tree: 'Main', node: 'a' });
+  expect(focusField).not.toHaveBeenCalled();
+  const place = { isFault: false, tree: 'Main', node: 'a', file: 'trees/Main.json', line: 7, topic: null };
+  openProblem({ ...place, port: 'speed' } as ListedProblem);
+  expect(useProjectStore.getState()).toMatchObject({
+    selection: ['a'],
+    revealed: { tree: 'Main', node: 'a' },
+  });
+  expect(openTree).toHaveBeenCalledTimes(2);
+  expect(focusField).toHaveBeenCalledExactlyOnceWith('speed');
+  expect(openFile).not.toHaveBeenCalled();
 });

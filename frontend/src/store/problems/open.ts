@@ -1,19 +1,27 @@
 import type { NodeId } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
-import { openFile, openTopics, openTree } from '@/store/project/navigation';
+import { focusField, openFile, openTopics, openTree } from '@/store/project/navigation';
 import type { ListedProblem } from './list';
 
-/** Shows the block of a step of a reason. */
-export function openStep({ tree, node }: { readonly tree: string; readonly node: NodeId }): void {
+export interface BlockPlace {
+  readonly tree: string;
+  readonly node: NodeId;
+  /** The port or script that is meant; it gets the focus. */
+  readonly port?: string | undefined;
+}
+
+/** Selects a block, brings it into view, and moves the focus into the field of the port that is meant. */
+export function openBlock({ tree, node, port }: BlockPlace): void {
   openTree(tree);
   useProjectStore.getState().reveal(tree, node);
+  if (port) focusField(port);
 }
 
 /** Shows the place of a finding: the line of a fault, the block of a finding in a tree, or the topics. */
-export function openProblem({ isFault, tree, node, file, line, topic }: ListedProblem): void {
+export function openProblem({ isFault, tree, node, port, file, line, topic }: ListedProblem): void {
   if (file !== null && (isFault || tree === null || node === null)) openFile(file, line ?? undefined);
   else if (tree !== null) {
-    openTree(tree);
-    if (node !== null) useProjectStore.getState().reveal(tree, node);
+    if (node === null) openTree(tree);
+    else openBlock({ tree, node, port });
   } else if (topic !== null) openTopics();
 }

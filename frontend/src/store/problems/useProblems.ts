@@ -3,6 +3,7 @@ import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { listProblems, type ListedProblem, type ProblemSources } from './list';
+import { useLookedAt } from './robots';
 import { useTextFindings } from './texts';
 
 let last: { readonly sources: ProblemSources; readonly rows: readonly ListedProblem[] } | null = null;
@@ -30,10 +31,11 @@ export function useProblems(): readonly ListedProblem[] {
       diagnostics,
     })),
   );
+  const robots = useLookedAt();
   const served = useLanguageStore((state) => state.findings);
   const { linted, errors } = useTextFindings();
   const run = useSessionStore(
     useShallow(({ faults, mismatches, launchNodes }) => ({ faults, mismatches, launchNodes })),
   );
-  return rowsOf({ ...project, served, linted, errors, ...run });
+  return rowsOf({ ...project, robots, served, linted, errors, ...run });
 }

@@ -18,10 +18,10 @@ function copyPath(path: string, taken: ReadonlySet<string>): string {
   }
 }
 
-/** Returns whether a document can be duplicated: it must be one file whose text the page has. */
+/** Returns whether a document can be duplicated: it must be one file of text. A large one is loaded before. */
 export function canDuplicate(path: string): boolean {
-  const { currentText } = useProjectStore.getState();
-  return kindOf(path) !== 'robot' && currentText(path) !== null;
+  const { currentText, files } = useProjectStore.getState();
+  return kindOf(path) !== 'robot' && (currentText(path) !== null || files[path]?.kind === 'large');
 }
 
 /** Adds a copy of a document; returns its path, or null if it cannot be copied. */

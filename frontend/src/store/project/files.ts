@@ -23,14 +23,14 @@ export function tryParse(id: string, text: string): Diagram | null {
 export function openFiles(list: readonly ProjectFile[]): OpenedFiles {
   const files: Record<string, FileEntry> = {};
   const diagrams: Record<string, Diagram> = {};
-  for (const { path, revision, content } of list) {
+  for (const { path, revision, content, left_out: isLeftOut } of list) {
     const id = treeIdOf(path);
     const diagram = id !== null && content !== null ? tryParse(id, content) : null;
     if (id !== null && diagram) {
       diagrams[id] = diagram;
       files[path] = { path, kind: 'tree', text: null, revision, savedText: serializeDiagram(diagram) };
     } else {
-      const kind = content === null ? 'binary' : 'text';
+      const kind = isLeftOut ? 'large' : content === null ? 'binary' : 'text';
       files[path] = { path, kind, text: content, revision, savedText: content };
     }
   }

@@ -232,8 +232,9 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       set((state) => {
         const entry = state.files[path];
         if (!entry || entry.text === text) return state;
+        const kind = entry.kind === 'large' ? 'text' : entry.kind; // what the server has is loaded no more
         return {
-          files: { ...state.files, [path]: { ...entry, text } },
+          files: { ...state.files, [path]: { ...entry, kind, text } },
           changeCounter: state.changeCounter + 1,
         };
       });

@@ -107,6 +107,12 @@ export interface Difference {
   readonly theirs: string;
 }
 
+/** Returns the files of a project that an update concerns. */
+export function placesOf(behaviour: Reusable): readonly string[] {
+  const taken = takenNow()[keyOf(behaviour)];
+  return taken ? Object.keys(atPlaces(behaviour.files, taken.places)) : [];
+}
+
 /** Returns the changes of an update; empty if the project has the newest version. */
 export function differencesOf(behaviour: Reusable): readonly Difference[] {
   const taken = takenNow()[keyOf(behaviour)];

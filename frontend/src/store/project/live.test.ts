@@ -79,6 +79,7 @@ describe('live status', () => {
         [1, 'FAILURE'],
         [2, 'SUCCESS'],
       ],
+      halted: null,
       faults: [[3, 'no way']],
     } as const;
     live().setMoment(moment);
@@ -96,7 +97,10 @@ describe('live status', () => {
     live().setMoment(moment);
     expect([live().past === past, live().faults === faults]).toEqual([true, true]);
     expect([...live().flashes]).toEqual([...flashes]);
-    live().setMoment({ statuses: [], flashed: [], faults: [] });
+    const halted = { statuses: [[2, 'RUNNING'] as const], flashes: [] };
+    live().setMoment({ ...moment, statuses: [], flashed: [], halted });
+    expect(pastOf(live(), liveKey('T', 'b'))).toBe('RUNNING');
+    live().setMoment({ statuses: [], flashed: [], halted: null, faults: [] });
     expect([live().statuses.size, live().past.size, live().flashes.size, live().faults.size]).toEqual([
       0, 0, 0, 0,
     ]);

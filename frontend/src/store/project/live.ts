@@ -27,6 +27,8 @@ export interface MomentOfTree {
   readonly statuses: Pairs;
   /** Results within the last tick that did not stay. */
   readonly flashed: Pairs;
+  /** The last tick itself, if the tree was halted after it: its statuses are shown as past ones. */
+  readonly halted: { readonly statuses: Pairs; readonly flashes: Pairs } | null;
   /** The faults up to the moment, by uid. */
   readonly faults: readonly (readonly [uid: number, message: string])[];
 }
@@ -139,12 +141,14 @@ function liveStore() {
         }
         if (changed) set({ flashes });
       },
-      setMoment: ({ statuses: active, flashed, faults: messages }) => {
+      setMoment: ({ statuses: active, flashed, halted, faults: messages }) => {
         byUid = new Map(active);
         const before = get();
         const statuses = new Map<LiveKey, NodeStatus>();
         for (const [uid] of active) put(statuses, uid, merged);
-        const idle = flashed.filter(([uid]) => !byUid.has(uid));
+        // A result is later than the status that the node had when the tick began.
+        const last = new Map([...(halted?.statuses ?? []), ...(halted?.flashes ?? []), ...flashed]);
+        const idle = [...last].filter(([uid]) => !byUid.has(uid));
         const others = flashed.filter(([uid]) => byUid.has(uid));
         const flashes = new Map<LiveKey, Flash>();
         for (const [uid, status] of others) {

@@ -116,9 +116,30 @@ export function problemsOf(
   return [...shown, ...server];
 }
 
-/** Returns the errors among the findings of a check. */
+/**
+ * Returns the editor's own finding for one of the server's, if both have found the same: one fault has one
+ * wording, and the editor's is in the user's language.
+ */
+export function ownProblemOf(
+  { code, tree, node, port }: Diagnostic,
+  diagrams: Readonly<Record<string, Diagram>>,
+  vocabulary: Vocabulary,
+): ShownProblem | null {
+  const diagram = diagrams[tree ?? ''];
+  if (!diagram) return null;
+  const place = placeOf(code, node || null, port || undefined);
+  const own = ownProblems(diagram, vocabulary).find((problem) =>
+    CODES[problem.kind].some((each) => placeOf(each, problem.node, problem.port) === place),
+  );
+  return own ? { source: 'editor', ...own } : null;
+}
+
+/** The folder of the behaviour tests: what is wrong in it keeps them from being run, and nothing else. */
+const TESTS = 'tests/';
+
+/** Returns the errors among the findings of a check that keep the project from being run and exported. */
 export const errorsOf = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
-  diagnostics.filter(({ severity }) => severity === 'error');
+  diagnostics.filter(({ severity, file }) => severity === 'error' && !file?.startsWith(TESTS));
 
 /** Returns the worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {

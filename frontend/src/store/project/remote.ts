@@ -1,5 +1,5 @@
 import type { ProjectDetail } from '@/api/types';
-import { emptyUndo } from '@/model/undo';
+import { carriedStack } from '@/model/operations/carry';
 import { withLastDeclarations } from './declarations';
 import { currentText, openFiles } from './files';
 import { whileEditing } from './problems';
@@ -13,6 +13,8 @@ export interface Merged {
   readonly taken: readonly string[];
   /** Files that were changed on both sides: the next save asks the user. */
   readonly kept: readonly string[];
+  /** How many steps can no longer be undone or done again: they would revert what others did. */
+  readonly lost: number;
 }
 
 /**
@@ -52,8 +54,6 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     const diagram = tree === null ? undefined : remote.diagrams[tree];
     if (tree !== null && diagram) {
       diagrams[tree] = diagram;
-      // Undo would otherwise revert another user's work.
-      histories[tree] = emptyUndo;
     }
     taken.push(theirs.path);
   }
@@ -61,6 +61,13 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     if (mine.path in remote.files || mine.revision === 0) continue;
     if (isEdited(mine.path)) kept.push(mine.path);
     else drop(mine.path, mine.kind === 'tree' ? treeOf(mine.path) : null);
+  }
+  const theirs = new Set(taken);
+  let lost = 0;
+  for (const [owner, undoStack] of Object.entries(theirs.size > 0 ? histories : {})) {
+    const carried = carriedStack(undoStack, data.diagrams, diagrams, (path) => theirs.has(path));
+    histories[owner] = carried.undoStack;
+    lost += carried.lost;
   }
   const active = data.activeTree;
   const isActiveGone = active !== null && !(active in diagrams);
@@ -80,5 +87,5 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     activeTree: isActiveGone ? (main in diagrams ? main : (Object.keys(diagrams)[0] ?? null)) : active,
     selection: data.selection.filter((id) => active !== null && diagrams[active]?.nodes[id] !== undefined),
   };
-  return { data: knowing(next), taken, kept };
+  return { data: knowing(next), taken, kept, lost };
 }

@@ -14,8 +14,11 @@ import type { Vocabulary } from '@/model/vocabulary';
 
 export interface FileEntry {
   readonly path: string;
-  /** A tree is stored in `diagrams`; it has a text here only while the text cannot be parsed. */
-  readonly kind: 'tree' | 'text' | 'binary';
+  /**
+   * A tree is stored in `diagrams`; it has a text here only while the text cannot be parsed. A large file is
+   * one whose content the server left out: it is a text or binary, which is known when it is loaded.
+   */
+  readonly kind: 'tree' | 'text' | 'binary' | 'large';
   readonly text: string | null;
   /** The base revision of the next change; 0: the server does not have the file yet. */
   readonly revision: number;
@@ -86,8 +89,8 @@ export interface ProjectActions {
   /** Returns the changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;
-  /** Sets the base revision of a file after a conflict; the user's text stays. */
-  rebase(path: string, revision: number, savedText: string): void;
+  /** Sets the base of a file after a conflict, null for an unknown text; the user's text stays. */
+  rebase(path: string, revision: number, savedText: string | null): void;
   /** Returns the text of a file as it would be saved; null if it is binary or unknown. */
   currentText(path: string): string | null;
 }

@@ -230,9 +230,11 @@ describe('commands', () => {
     const renamed = vi.fn();
     setNavigator({
       openTree: vi.fn(),
+      showTree: vi.fn(() => true),
       openFile: vi.fn(),
       showFile: vi.fn(),
       openTopics: vi.fn(),
+      focusField: vi.fn(),
       aimAt: vi.fn(),
       renamed,
     });

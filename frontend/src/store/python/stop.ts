@@ -69,7 +69,7 @@ async function tried<Body>(doing: () => Promise<Body>): Promise<Body | undefined
     usePython.setState({ refusal: '' });
     return done;
   } catch (error) {
-    usePython.setState({ refusal: error instanceof Error ? reasonOf(error) : String(error) });
+    usePython.setState({ refusal: reasonOf(error) });
     return undefined;
   }
 }

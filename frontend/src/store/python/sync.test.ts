@@ -67,6 +67,36 @@ it('gives changes alone, and says which line cannot hold', async () => {
   expect(python.askedAs('setBreakpoints')).toHaveLength(4);
 });
 
+it('takes back a breakpoint that the debugger would move, and says that its line has no code', async () => {
+  await connect();
+  toggleLine('actions/Go.py', 3);
+  toggleLine('actions/Go.py', 8);
+  await python.answer('setBreakpoints', { breakpoints: [{ verified: true, line: 3 }] });
+  const moved = [
+    { verified: true, line: 3 },
+    { verified: true, line: 6 },
+  ];
+  await python.answer('setBreakpoints', { breakpoints: moved });
+  const again = await python.answer('setBreakpoints', { breakpoints: [{ verified: true, line: 3 }] });
+  expect(again['breakpoints']).toEqual([{ line: 3 }]);
+  await vi.waitFor(() => expect(Object.keys(now().problems)).toEqual(['actions/Go.py:8']));
+  expect(now().problems['actions/Go.py:8']).toMatch(/no code/);
+});
+
+it('says at its line what the program found out about a breakpoint', async () => {
+  await connect();
+  const breakpoint = {
+    verified: false,
+    message: 'No name x.',
+    line: 12,
+    source: { path: 'actions/Turn.py' },
+  };
+  python.event('breakpoint', { reason: 'changed', breakpoint });
+  expect(now().problems).toEqual({ 'actions/Turn.py:12': 'No name x.' });
+  python.event('breakpoint', { reason: 'changed', breakpoint: { ...breakpoint, verified: true, line: 13 } });
+  expect(now().problems).toEqual({ 'actions/Turn.py:12': 'No name x.' });
+});
+
 it('shows where a program is stopped, and brings its file to the front', async () => {
   const { showFile } = watchNavigation();
   await connect();

@@ -1,4 +1,5 @@
 import { reasonOf } from '@/api/reason';
+import { t } from '@/i18n';
 import { useBreakpoints } from '@/store/debug/breakpoints';
 import { showFile } from '@/store/project/navigation';
 import { listenToDap, type DapMessage } from '@/store/session/dap';
@@ -83,7 +84,7 @@ function end(): void {
 function quietly(doing: Promise<unknown>): void {
   doing.catch((error: unknown) => {
     if (usePython.getState().phase === 'off') return;
-    usePython.setState({ refusal: error instanceof Error ? reasonOf(error) : String(error) });
+    usePython.setState({ refusal: reasonOf(error) });
   });
 }
 
@@ -105,7 +106,11 @@ function isNews(path: string, has: readonly unknown[]): boolean {
 }
 
 interface Answered {
-  readonly breakpoints: readonly { readonly verified: boolean; readonly message?: string }[];
+  readonly breakpoints: readonly {
+    readonly verified: boolean;
+    readonly message?: string;
+    readonly line?: number;
+  }[];
 }
 
 async function giveFile(path: string, list: readonly LineBreakpoint[]): Promise<void> {
@@ -116,12 +121,34 @@ async function giveFile(path: string, list: readonly LineBreakpoint[]): Promise<
     ...(hits > 1 ? { hitCondition: `>=${hits}` } : {}),
     ...(log ? { logMessage: log } : {}),
   }));
-  const answer = await request<Answered>('setBreakpoints', { source: { path }, breakpoints });
+  const give = (some: readonly object[]) =>
+    request<Answered>('setBreakpoints', { source: { path }, breakpoints: some });
+  const answer = await give(breakpoints);
+  // The debugger moves one without code up to the last line that has some, which may never run.
+  const isMoved = (at: number) => (answer.breakpoints[at]?.line ?? list[at]?.line) !== list[at]?.line;
+  if (list.some((_, at) => isMoved(at))) await give(breakpoints.filter((_, at) => !isMoved(at)));
   const others = Object.entries(usePython.getState().problems).filter(([at]) => !at.startsWith(`${path}:`));
-  const found = answer.breakpoints.flatMap(({ verified, message }, at): [string, string][] =>
-    verified ? [] : [[`${path}:${list[at]?.line}`, message ?? '?']],
-  );
+  const found = answer.breakpoints.flatMap(({ verified, message }, at): [string, string][] => {
+    if (verified && !isMoved(at)) return [];
+    return [[`${path}:${list[at]?.line}`, isMoved(at) ? t('debug:python.noCode') : (message ?? '?')]];
+  });
   usePython.setState({ problems: Object.fromEntries([...others, ...found]) });
+}
+
+interface Changed {
+  readonly breakpoint: {
+    readonly verified: boolean;
+    readonly message?: string;
+    readonly line?: number;
+    readonly source?: { readonly path?: string };
+  };
+}
+
+/** Takes what the program finds out about a breakpoint when it comes there. */
+function changed({ breakpoint: { verified, message, line, source } }: Changed): void {
+  if (verified || !message || !source?.path || line === undefined) return;
+  const { problems } = usePython.getState();
+  usePython.setState({ problems: { ...problems, [`${source.path}:${line}`]: message } });
 }
 
 async function configure(): Promise<void> {
@@ -170,6 +197,7 @@ function receive(message: DapMessage): void {
   if (takeAnswer(message)) return;
   if (message.event === 'initialized') quietly(configure());
   if (message.event === 'stopped') quietly(stopped(message.body as Stopped));
+  if (message.event === 'breakpoint') changed(message.body as Changed);
   if (message.event === 'continued') usePython.setState({ stop: null });
   if (message.event === 'terminated') {
     dropRequests();

@@ -122,7 +122,8 @@ export class RunIndex {
       statuses: [...state.statuses],
       flashes: last?.flashed ?? [],
       was: state.was,
-      isHalted: state.isHalted,
+      forced: last?.forced ?? [],
+      halted: state.halted,
       entries: [...state.entries].map(([id, entry]): EntryAt => ({
         ...entry,
         ...this.since(segment, state, id),

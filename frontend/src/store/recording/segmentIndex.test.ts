@@ -171,9 +171,9 @@ function randomRun(seed: number) {
 it.each([1, 2, 3, 4, 5, 6, 7, 8])('shows the same from a keyframe as from the begin (run %i)', (seed) => {
   const { index, seen } = randomRun(seed);
   for (const { t, shown } of seen) {
-    const { number, isHalted, was, statuses, entries } = index.stateAt(t);
+    const { number, halted, was, statuses, entries } = index.stateAt(t);
     const values = new Map([...entries.values()].map(({ key, value }) => [key, value]));
-    expect({ number, isHalted, was, statuses, values }).toEqual(shown);
+    expect({ number, isHalted: halted !== null, was, statuses, values }).toEqual(shown);
   }
 });
 
@@ -215,4 +215,53 @@ it('marks where the tree was held, and not the steps from there, nor other input
     { t: 1, kind: 'held', text: '/a: breakpoint before its tick', uid: 2, tick: 7 },
     { t: 3, kind: 'held', text: '', tick: 9 },
   ]);
+});
+
+it('marks the tick from which on a result was forced, and the ticks tell what was forced', () => {
+  const index = new SegmentIndex(0, 0);
+  const fields = { type: ['Sequence', 'Turn'], path: ['/s', '/s/turn'], uid: [1, 2], parent: [0, 1] };
+  index.add(read('/bt/tree', 0, { generation: 1, ...fields }));
+  const tick = (number: number, uid: readonly number[]) => {
+    if (uid.length > 0) index.add(read('/bt/forced', number, { tick: number, uid }));
+    index.add(read('/bt/tick', number, { number, changed_uid: [], flashed_uid: [] }));
+  };
+  [[], [2], [2], [], [2]].forEach((uid, at) => tick(at + 1, uid));
+  const mark = { kind: 'forced', text: '/s/turn', uid: 2 };
+  expect(index.marks).toEqual([
+    { ...mark, t: 2, tick: 2 },
+    { ...mark, t: 5, tick: 5 },
+  ]);
+  expect([2, 3, 4, 5].map((t) => index.stateAt(t).tick?.forced)).toEqual([[2], [2], undefined, [2]]);
+});
+
+it('keeps what the last tick left behind over the halt of the tree, also behind a keyframe', () => {
+  const index = new SegmentIndex(0, 0);
+  const tick = (t: number, number: number, uid: number[], status: number[], flash: number[] = []) =>
+    index.add(
+      read('/bt/tick', t, {
+        ...{ number, changed_uid: uid, changed_status: status },
+        ...{ flashed_uid: flash, flashed_status: flash.map(() => 3) },
+      }),
+    );
+  index.add(read('/bt/tree', 0, { generation: 1, uid: [1, 2, 3], parent: [0, 1, 1] }));
+  tick(1, 7, [1, 2], [1, 1]);
+  tick(2, 8, [2, 3], [2, 1], [3]);
+  index.add(read('/bt/keyframe', 2, { tick: 8, status: [1, 2, 1], blackboard_json: '[]' }));
+  tick(2, 8, [1, 2, 3], [0, 0, 0]);
+  const { statuses, halted } = index.stateAt(2);
+  expect(statuses.size).toBe(0);
+  expect(halted).toEqual({
+    statuses: [
+      [1, 'RUNNING'],
+      [2, 'SUCCESS'],
+      [3, 'RUNNING'],
+    ],
+    was: [
+      [2, 'RUNNING'],
+      [3, 'IDLE'],
+    ],
+    flashes: [[3, 'FAILURE']],
+    forced: [],
+  });
+  expect(index.stateAt(1).halted).toBeNull();
 });

@@ -29,6 +29,7 @@ import {
   type RecordedLine,
   type RecordedNode,
   type StatusOf,
+  type Ticked,
   type WriteAt,
 } from './types';
 
@@ -69,8 +70,8 @@ export interface State {
   number: number;
   /** The statuses before the last tick, of the nodes that it changed. */
   was: readonly StatusOf[];
-  /** Whether the tree was halted after the last tick: that has the number of the tick. */
-  isHalted: boolean;
+  /** The last tick itself, if the tree was halted after it: that has the number of the tick. */
+  halted: Ticked | null;
   /** The place of the last step. */
   last: number;
 }
@@ -99,6 +100,9 @@ export class SegmentIndex {
   private files: Readonly<Record<string, string>> = {};
   /** The writes of each key, in order. */
   private readonly writes = new Map<string, LastWrite[]>();
+  /** The nodes whose results were forced in the tick that comes next, and in the one before. */
+  private forced: readonly number[] = [];
+  private forcedBefore: readonly number[] = [];
   private readonly begins: Begin[] = [];
   private readonly bodies = new Set<number>();
   /** The places of the frames that have the poses of all bodies. */
@@ -129,7 +133,10 @@ export class SegmentIndex {
       case '/bt/keyframe':
         return this.push(keyframeStep(t, read.decode()));
       case '/bt/tick':
-        return this.push(tickStep(t, read.decode()));
+        return this.addTick(read);
+      case '/bt/forced':
+        this.forced = Array.from(read.decode()['uid'] as ArrayLike<number>);
+        return;
       case '/bt/blackboard':
         return this.addWrites(writesStep(t, read.decode()));
       case '/bt/profile':
@@ -177,7 +184,7 @@ export class SegmentIndex {
       tick: null,
       number: 0,
       was: [],
-      isHalted: false,
+      halted: null,
       last,
     };
     const tree = begin && begin.tree < begin.at ? this.steps[begin.tree] : undefined;
@@ -256,6 +263,17 @@ export class SegmentIndex {
     const at = this.steps.push(step) - 1;
     if (step.kind === 'tree') this.begins.push({ at, tree: at });
     else if (step.kind === 'keyframe') this.begins.push({ at, tree: this.begins.at(-1)?.tree ?? at });
+  }
+
+  /** Adds a tick; a mark stands where other results than in the tick before were forced. */
+  private addTick({ t, decode: told }: Read): void {
+    const [forced, before] = [this.forced, this.forcedBefore];
+    [this.forced, this.forcedBefore] = [[], forced];
+    const step = tickStep(t, told(), forced);
+    this.push(step);
+    for (const uid of forced)
+      if (!before.includes(uid))
+        this.marks.push({ t, kind: 'forced', text: this.paths.get(uid) ?? '', uid, tick: step.number });
   }
 
   private addWrites(step: WritesStep): void {
@@ -369,6 +387,10 @@ function holdOf(json: string): { uid: number; path: string; why: string } {
 export const isCollision = ({ source, text }: { readonly source: string; readonly text: string }) =>
   source === 'world' && /bumped into/.test(text);
 
+/** Returns what the last tick left behind; null without one. */
+const tickedOf = ({ tick, statuses, was }: State): Ticked | null =>
+  tick && { statuses: [...statuses], was, flashes: tick.flashed, forced: tick.forced ?? [] };
+
 function apply(state: State, step: Step): void {
   switch (step.kind) {
     case 'tree':
@@ -379,7 +401,7 @@ function apply(state: State, step: Step): void {
       state.entries = new Map();
       state.tick = null;
       state.was = [];
-      state.isHalted = false;
+      state.halted = null;
       return;
     case 'keyframe':
       state.statuses = new Map();
@@ -391,8 +413,8 @@ function apply(state: State, step: Step): void {
       state.number = step.tick;
       return;
     case 'tick':
+      state.halted = step.number === state.number ? (state.halted ?? tickedOf(state)) : null;
       state.was = step.changed.map(([uid]) => [uid, state.statuses.get(uid) ?? 'IDLE']);
-      state.isHalted = step.number === state.number && state.tick !== null;
       for (const [uid, status] of step.changed) {
         if (status === 'IDLE') state.statuses.delete(uid);
         else state.statuses.set(uid, status);

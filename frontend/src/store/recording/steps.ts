@@ -27,6 +27,8 @@ export interface TickStep {
   readonly durationMs: number;
   readonly changed: readonly StatusOf[];
   readonly flashed: readonly StatusOf[];
+  /** The uids of the nodes whose result was forced. */
+  readonly forced?: readonly number[];
 }
 
 export interface Write extends Entry {
@@ -88,7 +90,8 @@ export function keyframeStep(t: number, fields: Fields): KeyframeStep {
   return { kind: 'keyframe', t, tick: Number(fields['tick']), status: numbers(fields['status']), entries };
 }
 
-export function tickStep(t: number, fields: Fields): TickStep {
+/** @param forced the uids that the message of forced results before it has. */
+export function tickStep(t: number, fields: Fields, forced: readonly number[] = []): TickStep {
   return {
     kind: 'tick',
     t,
@@ -96,6 +99,7 @@ export function tickStep(t: number, fields: Fields): TickStep {
     durationMs: Number(fields['duration_ms']),
     changed: pairs(fields['changed_uid'], fields['changed_status']),
     flashed: pairs(fields['flashed_uid'], fields['flashed_status']),
+    ...(forced.length > 0 ? { forced } : {}),
   };
 }
 

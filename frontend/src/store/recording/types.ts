@@ -76,7 +76,7 @@ export interface RecordedFault {
   readonly path: string;
 }
 
-export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag' | 'stopped' | 'held';
+export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag' | 'stopped' | 'held' | 'forced';
 
 export interface Mark {
   readonly t: number;
@@ -86,7 +86,7 @@ export interface Mark {
   readonly id?: string;
   /** Who set a flag, if it is known. */
   readonly user?: string;
-  /** The node at which the tree was held, or that raised a fault. */
+  /** The node at which the tree was held, that raised a fault, or whose result was forced. */
   readonly uid?: number;
   /** The tick within which the tree was held. */
   readonly tick?: number;
@@ -136,8 +136,20 @@ export interface PictureAt {
   readonly jpeg: Uint8Array;
 }
 
+/** What a tick left behind. */
+export interface Ticked {
+  /** The nodes that are not idle. */
+  readonly statuses: readonly StatusOf[];
+  /** Results within the tick that did not stay. */
+  readonly flashes: readonly StatusOf[];
+  /** The nodes whose status the tick changed, with the status from before. */
+  readonly was: readonly StatusOf[];
+  /** The uids of the nodes whose result in the tick was forced by the debugger. */
+  readonly forced: readonly number[];
+}
+
 /** Everything that was recorded for one moment of a run. */
-export interface Moment {
+export interface Moment extends Ticked {
   readonly t: number;
   /** The number of the last tick; 0 before the first. */
   readonly tick: number;
@@ -149,14 +161,8 @@ export interface Moment {
   readonly tree: readonly RecordedNode[] | null;
   /** The attached diagrams by their names in the recording; sent with the nodes. */
   readonly files: Readonly<Record<string, string>> | null;
-  /** The nodes that are not idle. */
-  readonly statuses: readonly StatusOf[];
-  /** Results within the last tick that did not stay. */
-  readonly flashes: readonly StatusOf[];
-  /** The nodes whose status the last tick changed, with the status from before. */
-  readonly was: readonly StatusOf[];
-  /** Whether the tree was halted after the last tick. */
-  readonly isHalted: boolean;
+  /** The last tick itself, if the tree was halted after it; else null. */
+  readonly halted: Ticked | null;
   readonly entries: readonly EntryAt[];
   /** The world: sent only when the asker has another one. */
   readonly scene: Scene | null;

@@ -37,3 +37,13 @@ it('takes the next plan, not the last one', async () => {
   useSessionStore.setState({ applied: plan({ kept: 2 }) });
   expect((await next).kept).toBe(2);
 });
+
+it('asks no more once the program or the session has ended', async () => {
+  useSessionStore.setState({ executor: 'paused' });
+  const asked = agreesTo(plan({ halted: [node] }));
+  useSessionStore.setState({ simTime: 4 });
+  expect(useApplyQuestion.getState().plan?.halted).toEqual([node]);
+  useSessionStore.setState({ executor: 'idle' });
+  expect(await asked).toBe(false);
+  expect(useApplyQuestion.getState().plan).toBeNull();
+});

@@ -1,6 +1,7 @@
 import { create } from 'zustand';
 import type { Applied } from '@/generated/messages';
 import { useSessionStore } from '@/store/session/store';
+import { hasApplication } from './commands';
 import { useRunStore } from './store';
 
 /** What replaces the tree: *Apply*, or *Run on*. */
@@ -33,11 +34,21 @@ export function nextPlan(): Promise<Applied> {
 export const asksFirst = ({ halted, late_ports }: Applied): boolean =>
   halted.length > 0 || late_ports.length > 0;
 
-/** Asks the user if need be; resolves to whether the tree is to be replaced. */
+/**
+ * Asks the user if need be; resolves to whether the tree is to be replaced. The question goes away with the
+ * program.
+ */
 export async function agreesTo(plan: Applied, name: Exchange = 'apply'): Promise<boolean> {
   if (!asksFirst(plan)) return true;
   useRunStore.setState({ stage: null });
-  const agrees = await new Promise<boolean>((answer) => useApplyQuestion.setState({ name, plan, answer }));
+  let unfollow = () => {};
+  const agrees = await new Promise<boolean>((answer) => {
+    useApplyQuestion.setState({ name, plan, answer });
+    unfollow = useSessionStore.subscribe(() => {
+      if (!hasApplication()) answer(false);
+    });
+  });
+  unfollow();
   useApplyQuestion.setState(nobody);
   return agrees;
 }

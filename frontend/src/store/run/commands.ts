@@ -1,7 +1,7 @@
 import type { RunTime } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { endSession, send } from '@/store/session/connection';
-import { isUnconnected } from '@/store/session/control';
+import { isCancelled, isUnconnected } from '@/store/session/control';
 import { doesWorldRunAlone, isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
@@ -11,7 +11,7 @@ export async function reported(doing: Promise<unknown>): Promise<void> {
   try {
     await doing;
   } catch (error) {
-    if (isUnconnected(error)) return;
+    if (isUnconnected(error) || isCancelled(error)) return;
     const message = error instanceof Error ? error.message : String(error);
     const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
     useRunStore.setState({

@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { setName, setPort } from '@/model/edits';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '@/store/testing';
+import { leave } from '@/store/session/connection';
 import { openSession, type FakeExecutor } from '../../../harness/testing';
 import { beginProgram, setTyping, useLivePorts } from './livePorts';
 import { followPorts } from './portSync';
@@ -98,6 +99,14 @@ describe('a changed port', () => {
     });
     await settled();
     expect(hasChanged()).toBe(true);
+  });
+
+  it('that was refused is a plain edit once the session has ended', async () => {
+    executor.refuse('set_port', 'It is read at load.', '', 'port_fixed');
+    type('0.5');
+    await vi.waitUntil(() => 'MainTree/n1' in useLivePorts.getState().refused);
+    act(leave);
+    expect(useLivePorts.getState()).toMatchObject({ refused: {}, kept: {}, program: null });
   });
 
   it('beside another edit still leaves a restart to offer', async () => {

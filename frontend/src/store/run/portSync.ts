@@ -19,6 +19,8 @@ export function followPorts(): () => void {
       if (before.isTyping && !now.isTyping) void sendChanges();
     }),
     useSessionStore.subscribe((now, before) => {
+      // What a program refused or kept is gone with its session.
+      if (now.sessionId === null && before.sessionId !== null) beginProgram(null);
       if (now.executor !== before.executor) void sendChanges();
     }),
     useRunStore.subscribe((now, before) => {

@@ -20,7 +20,13 @@ it('does not ask the server to run a project in which the last save found errors
 });
 
 it('runs the project as the server gives it, with the revision that a recording names', async () => {
-  openProject({});
+  const ofTests = {
+    code: 'TG905',
+    severity: 'error',
+    message: 'no leaf',
+    file: 'tests/a.test.yaml',
+  } as const;
+  openProject({ diagnostics: [ofTests] }); // what is wrong with a test keeps nobody from running
   const executor = await openSession();
   const application = {
     app_zip_base64: 'eA==',
@@ -50,6 +56,7 @@ it.each([
   const confirm = executor.takeLong('apply');
   const applied = applyProject();
   await expect.poll(() => executor.sentAs('apply')).toHaveLength(1);
+  expect(useRunStore.getState().stage).toBe('applying');
   confirm();
   executor.emit('applied', { ...plan, halted: [...halted] });
   if (answer !== null) {
@@ -63,4 +70,21 @@ it.each([
   expect(executor.sentAs('apply')).toEqual(sent.map((dry) => ({ app_zip_base64: 'eA==', dry })));
   const { changeCounter } = useProjectStore.getState();
   expect(useRunStore.getState().ranAt === changeCounter).toBe(answer !== false);
+});
+
+it('says of a change that is refused that nothing was changed, not that no run was started', async () => {
+  const error = { code: 'BT0601', severity: 'error', message: 'bad', hint: '' } as const;
+  openProject({ diagnostics: [error] });
+  fakeServer({});
+  expect(await applyProject()).toBe(false);
+  expect(useRunStore.getState().failure).toMatchObject({ stage: 'checking', isChange: true });
+});
+
+it('shows no error where the user cancelled the start', async () => {
+  openProject({});
+  const executor = await openSession();
+  fakeServer({ 'GET /projects/p1/app': { app_zip_base64: 'eA==', universe: {} } });
+  executor.refuse('run', 'run was cancelled.', '', 'cancelled');
+  expect(await runProject()).toBe(false);
+  expect(useRunStore.getState().failure).toBeNull();
 });

@@ -2,11 +2,12 @@ import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { AppBundle, Diagnostic } from '@/api/types';
 import type { Commands } from '@/generated/messages';
+import { serverReason } from '@/i18n/serverReason';
 import { useProjectStore } from '@/store/project';
 import { errorsOf } from '@/store/project/problems';
 import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
-import { CommandError, isUnconnected } from '@/store/session/control';
+import { CommandError, isCancelled, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { agreesTo, nextPlan, type Exchange } from './apply';
 import { beginProgram } from './livePorts';
@@ -22,11 +23,11 @@ export const restartProject = () => launch((app) => send('run_application', appl
 async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
-  wasCancelled = false;
   useRunStore.setState({ stage: 'saving', failure: null });
   useSessionStore.setState({
     isLaunching: true,
     progress: null,
+    queued: null,
     faults: [],
     finished: null,
     executorReason: '',
@@ -39,13 +40,11 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // Without a connection no error is shown: the session continues, and reports the result after the page
-    // reconnects.
-    if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
+    tell(error);
     return false;
   } finally {
     useRunStore.setState({ stage: null });
-    useSessionStore.setState({ isLaunching: false, progress: null });
+    useSessionStore.setState({ isLaunching: false, progress: null, queued: null });
   }
 }
 
@@ -88,22 +87,21 @@ async function exchanged(
 ): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
-  wasCancelled = false;
   useRunStore.setState({ stage: 'saving', failure: null });
   try {
     let program = useProjectStore.getState();
     const { app_zip_base64 } = await packed(projectId, () => (program = useProjectStore.getState()));
-    enter('launching');
+    enter('applying');
     await arrive?.();
     const planned = nextPlan();
     await send('apply', { app_zip_base64, dry: true });
     if (!(await agreesTo(await planned, name))) return false;
-    enter('launching');
+    enter('applying');
     await exchange(app_zip_base64);
     beginAs(program);
     return true;
   } catch (error) {
-    if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
+    tell(error, { isChange: true });
     return false;
   } finally {
     useRunStore.setState({ stage: null });
@@ -117,11 +115,7 @@ class UnsoundError extends Error {
   }
 }
 
-/** Whether the user pressed *Cancel*: then no error is shown. */
-let wasCancelled = false;
-
 export function cancelRun(): void {
-  wasCancelled = true;
   const isStarting = useRunStore.getState().stage === 'starting';
   void (isStarting ? abandonStart() : send('cancel', {})).catch(() => undefined);
 }
@@ -149,11 +143,26 @@ function applicationOf({
   return { app_zip_base64, tick_hz, on_finish, on_error, revision };
 }
 
+/**
+ * Shows an error. Without a connection none is shown: the session continues, and reports the result after the
+ * page reconnects.
+ */
+function tell(error: unknown, what: Pick<LaunchFailure, 'isChange'> = {}): void {
+  if (isUnconnected(error) || isCancelled(error)) return;
+  useRunStore.setState({ failure: { ...failureOf(error), ...what } });
+}
+
 function failureOf(error: unknown): LaunchFailure {
   const stage = useRunStore.getState().stage ?? 'saving';
   if (error instanceof ApiError) {
-    const { code, message, hint, diagnostics } = error;
-    return { stage, code, message, hint, diagnostics };
+    const { code, diagnostics } = error;
+    return {
+      stage,
+      code,
+      message: serverReason(error),
+      hint: error.isRestarted ? '' : error.hint,
+      diagnostics,
+    };
   }
   if (error instanceof CommandError) {
     return { stage, code: error.code, message: error.message, hint: error.hint, diagnostics: [] };

@@ -1,11 +1,13 @@
 import { create } from 'zustand';
 import type { Diagnostic } from '@/api/types';
 
-/** The steps of Run that come before those of the executor. */
-export type LaunchStage = 'saving' | 'checking' | 'starting' | 'launching';
+/** The steps of Run that come before those of the executor; *Apply* and *Run on* end with `applying`. */
+export type LaunchStage = 'saving' | 'checking' | 'starting' | 'launching' | 'applying';
 
 export interface LaunchFailure {
   stage: LaunchStage;
+  /** Whether a running tree was to be changed, not a program to be started. */
+  isChange?: boolean;
   code: string;
   message: string;
   hint: string;

@@ -1,6 +1,7 @@
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { FileChange } from '@/api/types';
+import { serverReason } from '@/i18n/serverReason';
 import { useProjectStore } from '@/store/project';
 import { clearDraft, writeDraft } from './drafts';
 import { useSavingStore, type SaveState } from './store';
@@ -134,9 +135,10 @@ function onRefused(error: unknown): void {
   if (error instanceof ApiError && error.code === 'revision_conflict') {
     return setState({ kind: 'conflict', conflicts: error.conflicts });
   }
-  const reason = error instanceof Error ? error.message : String(error);
+  const reason = serverReason(error);
   setState({ kind: 'failed', code: error instanceof ApiError ? error.code : 'unknown', reason });
-  if (error instanceof ApiError && (error.isOffline || error.status >= 500)) saveSoon(RETRY_AFTER_MS);
+  if (error instanceof ApiError && (error.isOffline || error.isRestarted || error.status >= 500))
+    saveSoon(RETRY_AFTER_MS);
 }
 
 /** Returns the message that this save gets in the history. */

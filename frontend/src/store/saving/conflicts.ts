@@ -26,7 +26,8 @@ export async function resolveConflict(conflict: Conflict, text: string | null): 
 function takeAsBase({ path, theirs, mine }: Conflict): void {
   const { files, addFile, rebase } = useProjectStore.getState();
   if (!(path in files)) addFile(path, theirs?.content ?? mine.content ?? '');
-  rebase(path, theirs?.revision ?? 0, theirs?.content ?? '');
+  // A version that is gone or not loaded is no empty text: an empty one of the user must still be sent.
+  rebase(path, theirs?.revision ?? 0, theirs?.content ?? null);
 }
 
 /**

@@ -1,11 +1,18 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '@/api/client';
 import type { ProjectFile } from '@/api/types';
+import { setComment, setName } from '@/model/edits';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '../testing';
 import { catchUp } from './live';
 
 const detail = (revision: number, files: ProjectFile[]) => projectDetail(revision, files, 'Main');
+
+const saved = (fields: object): string =>
+  JSON.stringify({
+    ...(JSON.parse(oneBlock('Main', 'Go')) as object),
+    nodes: { n1: { type: 'Go', ...fields } },
+  });
 
 const store = () => useProjectStore.getState();
 const notice = (revision: number) =>
@@ -74,5 +81,24 @@ describe('a revision that was made elsewhere', () => {
     ]);
     await catchUp('p1', notice(2), onTaken);
     expect(store().pendingChanges()).toEqual([]);
+  });
+
+  it('keeps the steps of this page that it does not touch, and tells how many others are lost', async () => {
+    store().apply('Main', 'rename', [setName('n1', 'mine')]);
+    store().apply('Main', 'comment', [setComment('n1', 'why')]);
+    serverHas(2, [projectFile('trees/Main.json', 2, saved({ name: 'mine', comment: 'why', color: 'red' }))]);
+    const sent = store().pendingChanges();
+    store().applySaved(sent, { revision: 1, files: [], diagnostics: [], actions: [], checked: true });
+    await catchUp('p1', notice(2), onTaken);
+    expect(onTaken.mock.calls[0]?.[1]).toEqual({ message: 'Edit', lost: 0 });
+    serverHas(3, [
+      projectFile('trees/Main.json', 3, saved({ name: 'mine', comment: 'theirs', color: 'red' })),
+    ]);
+    await catchUp('p1', notice(3), onTaken);
+    expect(onTaken.mock.calls[1]?.[1]).toEqual({ message: 'Edit', lost: 1 });
+    store().undo();
+    expect(store().diagrams['Main']?.nodes['n1']).toEqual({ type: 'Go', comment: 'theirs', color: 'red' });
+    store().redo();
+    expect(store().diagrams['Main']?.nodes['n1']?.name).toBe('mine');
   });
 });

@@ -5,8 +5,11 @@ import { mergeRemote } from '@/store/project/remote';
 import { saveNow } from './autosave';
 import { useSavingStore } from './store';
 
-/** Called after a remote change was applied, with the paths and the notice. */
-type OnTaken = (paths: readonly string[], notice: Notice) => void;
+/** Called after a remote change was applied, with the paths, its message, and the number of lost steps. */
+type OnTaken = (
+  paths: readonly string[],
+  change: { readonly message: string; readonly lost: number },
+) => void;
 
 /** Called with the notice to all users of the server; an empty text ends the notice. */
 type OnServer = (text: string) => void;
@@ -72,7 +75,7 @@ export async function catchUp(projectId: string, notice: Notice, onTaken: OnTake
   const detail = await api.getProject(projectId);
   const state = useProjectStore.getState();
   if (state.projectId !== projectId || detail.revision <= state.revision) return;
-  const { data, taken } = mergeRemote(state, detail);
+  const { data, taken, lost } = mergeRemote(state, detail);
   useProjectStore.setState(data);
-  if (taken.length > 0) onTaken(taken, notice);
+  if (taken.length > 0) onTaken(taken, { message: notice.message, lost });
 }

@@ -89,10 +89,11 @@ describe('autosave', () => {
     expect(stateKind()).toBe('saved');
   });
 
-  it('stores edits in the browser while the server is unreachable, and saves later', async () => {
-    vi.spyOn(api, 'saveChanges').mockRejectedValue(
-      new ApiError({ title: 'gone', status: 0, code: 'offline' }),
-    );
+  it.each([
+    ['is unreachable', { status: 0, code: 'offline' }],
+    ['was restarted and does not know the browser', { status: 403, code: 'link_required' }],
+  ])('stores edits in the browser while the server %s, and saves later', async (_, problem) => {
+    vi.spyOn(api, 'saveChanges').mockRejectedValue(new ApiError({ title: 'gone', ...problem }));
     edit('typed offline');
     await vi.advanceTimersByTimeAsync(700);
     expect(stateKind()).toBe('failed');

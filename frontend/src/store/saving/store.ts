@@ -14,6 +14,12 @@ export interface SavingData {
   state: SaveState;
   /** The number of files whose edits were restored after a crash or reload. */
   restoredFiles: number;
+  /** The number of texts on the page that are not in the project: typed to the half, or refused. */
+  unsaved: number;
 }
 
-export const useSavingStore = create<SavingData>(() => ({ state: { kind: 'saved' }, restoredFiles: 0 }));
+export const useSavingStore = create<SavingData>(() => ({
+  state: { kind: 'saved' },
+  restoredFiles: 0,
+  unsaved: 0,
+}));

@@ -3,9 +3,11 @@ import { ApiError } from '@/api/errors';
 import { socketUrl } from '@/api/http';
 import type { SessionInfo } from '@/api/types';
 import { t } from '@/i18n';
+import { serverReason } from '@/i18n/serverReason';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { nextConnection, type ConnectionEvent } from './connectionStates';
 import { CommandError, ControlSocket } from './control';
+import { initialSession } from './reduce';
 import { SilenceWatch } from './silenceWatch';
 import { receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';
@@ -18,21 +20,11 @@ const RETRY_MS = [300, 600, 1200, 2500, 5000];
 export const ECHO_HZ = 10;
 /** The close code of a socket whose session the server ended because the executor did not answer. */
 const EXECUTOR_SILENT = 4504;
-const STORAGE_PREFIX = 'bts.session.';
 
 /** The states of the manager in which it offers streams. */
 const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused', 'held'];
 
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
-
-/**
- * Returns the reason for a lost connection. A translated text replaces the browser's text for a network
- * error.
- */
-function reasonOf(error: unknown): string {
-  if (isOffline(error)) return t('run:banner.unreachable');
-  return error instanceof Error ? error.message : String(error);
-}
 
 /** The connection of the page to its project's session; its states are those of `connectionStates.ts`. */
 class SessionConnection {
@@ -81,7 +73,6 @@ class SessionConnection {
     } finally {
       this.giveUp = null;
     }
-    localStorage.setItem(STORAGE_PREFIX + projectId, session.id);
   }
 
   /** Stops waiting for a session; a session that was already running continues. */
@@ -91,18 +82,17 @@ class SessionConnection {
     if (starting && starting.state !== 'ready') await this.endOnServer(starting.id);
   }
 
-  /** Joins the project's running session after a reload of the page. */
+  /** Joins the user's running session of the project: after a reload, or where another window began it. */
   async reattach(projectId: string): Promise<void> {
-    const id = localStorage.getItem(STORAGE_PREFIX + projectId);
     useSessionStore.setState({ projectId });
-    if (!id) return;
     try {
-      const found = await api.getSession(id);
-      if (found.state !== 'ready') return;
+      const all = await api.ownSessions();
+      const found = all.find(({ project_id, state }) => project_id === projectId && state === 'ready');
+      if (!found || useSessionStore.getState().connection !== 'off') return;
       this.session = found;
       await this.openSocket(found);
     } catch {
-      localStorage.removeItem(STORAGE_PREFIX + projectId);
+      // It has ended meanwhile; Run starts another one.
     }
   }
 
@@ -116,9 +106,7 @@ class SessionConnection {
   /** Ends the session and all its processes. */
   async endSession(): Promise<void> {
     const left = this.session;
-    const { projectId } = useSessionStore.getState();
     this.disconnect();
-    if (projectId) localStorage.removeItem(STORAGE_PREFIX + projectId);
     if (left) await this.endOnServer(left.id);
   }
 
@@ -251,7 +239,10 @@ class SessionConnection {
   }
 
   private onLost(reason: string): void {
-    const change = { connectionMessage: reason, silentS: 0, isLaunching: false, progress: null };
+    const { waiting, hungSince, goingBack } = initialSession;
+    // What lasts is not known any more; the next snapshot says it again.
+    const ended = { silentS: 0, isLaunching: false, progress: null, waiting, hungSince, goingBack };
+    const change = { connectionMessage: reason, ...ended };
     if (!this.go('closed', change)) return;
     this.isStreaming = false;
     this.isWorldUp = false;
@@ -275,7 +266,7 @@ class SessionConnection {
       await this.openSocket(session);
     } catch (error) {
       if (error instanceof ApiError && error.status === 404) return this.onEnded('');
-      this.onLost(reasonOf(error));
+      this.onLost(serverReason(error));
     } finally {
       this.isRetrying = false;
     }
@@ -293,7 +284,7 @@ class SessionConnection {
     } catch (error) {
       if (!isOffline(error) || asked !== this.socket) return;
       asked.close();
-      this.onLost(reasonOf(error));
+      this.onLost(serverReason(error));
     }
   }
 

@@ -16,6 +16,9 @@ export class CommandError extends Error {
 export const isUnconnected = (error: unknown) =>
   error instanceof CommandError && ['not_connected', 'connection_lost'].includes(error.code);
 
+/** Returns whether a command ended because the user pressed *Cancel*: then no error is shown. */
+export const isCancelled = (error: unknown) => error instanceof CommandError && error.code === 'cancelled';
+
 interface Waiting {
   resolve: () => void;
   reject: (error: Error) => void;

@@ -67,6 +67,14 @@ it('shows the last tick until another one comes', () => {
   expect(useLiveStore.getState().past.size).toBe(0);
 });
 
+it('shows the statuses within a tick that is held at a line of Python, until it ends', () => {
+  tick('RUNNING');
+  hear('held_in_python', { uid: 1, path: [1], tick: 2, statuses: [[1, 'FAILURE']] });
+  expect(shown()).toBe('FAILURE');
+  hear('tick', { n: 2, changed: [], flashed: [], duration_ms: 1, past: [] });
+  expect(shown()).toBe('RUNNING');
+});
+
 it('shows the statuses within a held tick, and gives the end of the tick those before it', () => {
   tick('RUNNING');
   hear('held', { statuses: [[1, 'FAILURE']] });

@@ -1,4 +1,13 @@
-import type { Fault, Held, NodeStatus, ServerMessage, Snapshot, Tick, Tree } from '@/generated/messages';
+import type {
+  Fault,
+  Held,
+  HeldInPython,
+  NodeStatus,
+  ServerMessage,
+  Snapshot,
+  Tick,
+  Tree,
+} from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
 import { useStatusRate } from './statusRate';
 
@@ -24,7 +33,8 @@ export function feedLive({ command, data }: ServerMessage): void {
       live.setTree(snapshot.tree?.nodes ?? []);
       live.setStatuses(snapshot.statuses);
       beforeHold = null;
-      if (snapshot.held) feedLive({ id: '', command: 'held', data: snapshot.held, seq: 0, t: 0 });
+      const held = snapshot.held ?? snapshot.held_in_python;
+      if (held) feedLive({ id: '', command: 'held', data: held, seq: 0, t: 0 });
       live.setPast(snapshot.past);
       return snapshot.faults.forEach(showFault);
     }
@@ -37,9 +47,10 @@ export function feedLive({ command, data }: ServerMessage): void {
       for (const [uid, status] of flashed) flashes.set(uid, status);
       return;
     }
-    case 'held': {
+    case 'held':
+    case 'held_in_python': {
       showStatuses();
-      const { statuses } = data as Held;
+      const { statuses } = data as Held | HeldInPython;
       const now = new Map<number, NodeStatus>(statuses);
       beforeHold ??= new Map(live.uidStatuses());
       return live.setStatuses(

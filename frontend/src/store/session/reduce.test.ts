@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type {
   BlackboardEntry,
   Events,
+  Fault,
   Introspection,
   Held,
   Log,
@@ -53,6 +54,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   live_runs: [],
   runs_by_hand: {},
   held: null,
+  held_in_python: null,
   forced: null,
   attached: null,
   attached_tree: null,
@@ -281,11 +283,12 @@ describe('a run', () => {
           hanging_s: 7.5,
         }),
       ),
+      10_000,
     );
     expect(late.logs.map(({ run, text }) => run ?? text)).toEqual([1, 'a', 'b', 2, 'c', 3]);
-    expect(late).toMatchObject({ runs: 3, isHanging: true, hungS: 7.5 });
+    expect(late).toMatchObject({ runs: 3, hungSince: 2500 });
     expect(reduce(late, loading).logs.at(-1)?.run).toBe(4);
-    expect(reduce(late, message('snapshot', snapshot())).isHanging).toBe(false);
+    expect(reduce(late, message('snapshot', snapshot())).hungSince).toBeNull();
   });
 
   it('hangs from the report until the next tick', () => {
@@ -298,9 +301,14 @@ describe('a run', () => {
       tree_id: '',
       node_path: '',
     } as const;
-    const hanging = reduce(running, message('fault', { ...fault, file: '', line: 0, traceback: '' }));
-    expect(hanging.isHanging).toBe(true);
-    expect(reduce(hanging, message('tick', tick(3))).isHanging).toBe(false);
+    const told = (kind: Fault['kind']) =>
+      message('fault', { ...fault, kind, file: '', line: 0, traceback: '' });
+    const hanging = reduce(running, told('timeout'), 9000);
+    expect(hanging.hungSince).toBe(7000);
+    expect(reduce(hanging, told('timeout'), 12_000).hungSince).toBe(7000);
+    expect(reduce(hanging, told('process')).hungSince).toBe(7000);
+    expect(reduce(hanging, told('exception')).hungSince).toBeNull();
+    expect(reduce(hanging, message('tick', tick(3))).hungSince).toBeNull();
   });
 
   it('has no fault of a launch node that runs again', () => {
@@ -344,7 +352,7 @@ describe('appendLogs', () => {
 });
 
 function tick(n: number): Events['tick'] {
-  return { n, changed: [], flashed: [], duration_ms: 0.1, past: [] };
+  return { n, changed: [], flashed: [], duration_ms: 0.1, past: [], forced: [] };
 }
 
 it('knows each segment in its last state, and forgets those that are gone', () => {

@@ -35,8 +35,8 @@ export const initialSession: SessionData = {
   executor: 'idle',
   executorReason: '',
   progress: null,
-  isHanging: false,
-  hungS: 0,
+  queued: null,
+  hungSince: null,
   runs: 0,
   isLaunching: false,
   tree: [],
@@ -58,6 +58,7 @@ export const initialSession: SessionData = {
   runsByHand: {},
   goingBack: null,
   held: null,
+  heldInPython: null,
   areBreakpointsOff: false,
   forced: null,
   attached: null,
@@ -78,24 +79,26 @@ type Handler<K extends keyof Events> = (
   state: SessionData,
   data: Events[K],
   message: ServerMessage,
+  now: number,
 ) => Partial<SessionData>;
 
 const handlers: { [K in keyof Events]?: Handler<K> } = {
   introspection: (state, data) => ({
     introspection: data,
+    queued: null,
     executor: data.state,
     wasTakenOver: data.role === 'viewer' && (state.wasTakenOver || state.introspection?.role === 'driver'),
   }),
   'state-changed': (state, data) => ({
     executor: data.state,
     executorReason: data.reason,
-    isHanging: false,
+    hungSince: null,
     waiting: initialSession.waiting,
     ...(APPLICATION.includes(data.state) ? {} : { progress: state.progress }),
     ...(APPLICATION.includes(data.state)
       ? {}
       : { forced: null, profile: state.profile && { ...state.profile, on: false } }),
-    ...(data.state === 'held' ? {} : { held: null }),
+    ...(data.state === 'held' ? {} : { held: null, heldInPython: null }),
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null, mismatches: [] } : {}),
     // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
     ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
@@ -104,6 +107,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     progress: data,
     ...(data.rung === 'run_application' && data.fraction === 0 ? beginRun(state) : {}),
   }),
+  queued: (_, { before, is_own: isOwn }) => ({ queued: before === null ? null : { before, isOwn } }),
   // A new tree means a new run, so the faults of the last run are removed. Launch nodes were started before
   // the tree, and one may already have ended, so their faults stay.
   tree: ({ faults, launchNodes }, data) => ({
@@ -121,15 +125,14 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     profile: null,
     tick: 0,
   }),
-  tick: (_, data) => ({ tick: data.n, isHanging: false }),
+  tick: (_, data) => ({ tick: data.n, hungSince: null, heldInPython: null }),
   blackboard: (state, data, { seq }) => ({
     blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
   }),
   log: (state, data, { t }) => appendLogs(state, [{ ...data, time: data.time || t }]),
-  fault: (state, data, { t }) => ({
+  fault: (state, data, { t }, now) => ({
     faults: [...state.faults, data],
-    isHanging: data.kind === 'timeout' && state.executor === 'application_running',
-    hungS: HANG_REPORTED_S,
+    hungSince: hungSinceAt(state, data, now),
     ...appendLogs(state, [logOf(data, t)]),
   }),
   port_set: ({ ports }, data) => ({ ports: withPort(ports, data) }),
@@ -165,7 +168,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     runsByHand: data.by_hand,
   }),
   going_back: (_, data) => ({ goingBack: data.fraction < 1 ? data.fraction : null }),
-  held: (_, data) => ({ held: data, isHanging: false, areBreakpointsOff: false }),
+  held: (_, data) => ({ held: data, heldInPython: null, hungSince: null, areBreakpointsOff: false }),
+  held_in_python: (_, data) => ({ heldInPython: data }),
   released: (_, data) => ({ held: null, areBreakpointsOff: data.off }),
   forced: (_, data) => ({ forced: data.nodes.length > 0 || data.alone > 0 ? data : null }),
   attached: (_, data) => ({ attached: data }),
@@ -174,7 +178,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   groot2: (_, { port }) => ({ groot2: port }),
   waiting: (_, data) => ({ waiting: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
-  snapshot: (state, data, { seq, t }) => ({
+  snapshot: (state, data, { seq, t }, now) => ({
     executor: data.state,
     tree: data.tree?.nodes ?? [],
     blackboard: mergeBlackboard({}, data.blackboard, seq),
@@ -186,8 +190,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
     finished: data.finished,
-    isHanging: data.hanging_s > 0,
-    hungS: data.hanging_s,
+    hungSince: data.hanging_s > 0 ? now - 1000 * data.hanging_s : null,
     runs: data.runs,
     ports: data.ports.reduce(withPort, {}),
     mismatches: data.mismatches,
@@ -200,6 +203,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     runsByHand: data.runs_by_hand,
     goingBack: null,
     held: data.held,
+    heldInPython: data.held_in_python,
     forced: data.forced,
     attached: data.attached,
     attachedTree: data.attached_tree,
@@ -210,16 +214,28 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   }),
 };
 
-/** Returns the state after a message; messages without state leave it unchanged. */
-export function reduce(state: SessionData, message: ServerMessage): SessionData {
+/** Returns the state after a message that came `now`; messages without state leave it unchanged. */
+export function reduce(
+  state: SessionData,
+  message: ServerMessage,
+  now: number = performance.now(),
+): SessionData {
   const handler = handlers[message.command as keyof Events] as Handler<keyof Events> | undefined;
   if (!handler) return state;
-  const change = handler(state, message.data as Events[keyof Events], message);
+  const change = handler(state, message.data as Events[keyof Events], message, now);
   return { ...state, ...change, simTime: message.t || state.simTime, lastSeq: message.seq };
 }
 
 export function reduceAll(state: SessionData, messages: readonly ServerMessage[]): SessionData {
-  return messages.reduce(reduce, state);
+  const now = performance.now();
+  return messages.reduce((before, message) => reduce(before, message, now), state);
+}
+
+/** Returns since when the present tick hangs; the end of another process says nothing about it. */
+function hungSinceAt({ hungSince, executor }: SessionData, { kind }: Fault, now: number): number | null {
+  if (kind === 'process') return hungSince;
+  if (kind !== 'timeout' || executor !== 'application_running') return null;
+  return hungSince ?? now - 1000 * HANG_REPORTED_S;
 }
 
 export function blackboardId(entry: Pick<BlackboardEntry, 'scope' | 'key'>): string {

@@ -9,6 +9,7 @@ import type {
   FlagSet,
   Forced,
   Held,
+  HeldInPython,
   Introspection,
   LaunchNode,
   Log,
@@ -39,6 +40,14 @@ export interface BlackboardRow extends BlackboardEntry {
   written?: { readonly t: number | null; readonly by: string | null };
 }
 
+/** The turn of a session that waits for a place on the server. */
+export interface QueuedTurn {
+  /** The number of robots that get a place before it. */
+  readonly before: number;
+  /** Whether it waits until another robot of the same user ends. */
+  readonly isOwn: boolean;
+}
+
 /** The state of the session as this page knows it. */
 export interface SessionData {
   connection: Connection;
@@ -53,10 +62,13 @@ export interface SessionData {
   executor: State;
   executorReason: string;
   progress: Progress | null;
-  /** Whether the current tick hangs, as a fault has reported; false again after another tick or state. */
-  isHanging: boolean;
-  /** How long the tick had hung when this was reported, in s. */
-  hungS: number;
+  /** Set while the session waits for a place on the server. */
+  queued: QueuedTurn | null;
+  /**
+   * When the present tick began to hang, in ms of the page's clock (`performance.now`), as a fault has reported;
+   * null again after another tick or state.
+   */
+  hungSince: number | null;
   /** The number of runs that began while this page was connected. */
   runs: number;
   /** Whether Run was pressed and has neither succeeded nor failed yet. */
@@ -93,6 +105,8 @@ export interface SessionData {
   goingBack: number | null;
   /** Where the debugger holds the tree; null while it does not. */
   held: Held | null;
+  /** The hold at a line of Python within a tick; null while there is none, or the tree is held at a node. */
+  heldInPython: HeldInPython | null;
   /** Whether all breakpoints were off when the last hold ended. */
   areBreakpointsOff: boolean;
   /** What is forced on nodes; null for nothing. */

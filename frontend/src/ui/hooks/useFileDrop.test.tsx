@@ -34,7 +34,7 @@ describe('useFileDrop', () => {
     expect(state()).toBe('over');
     expect(fire('drop', files)).toBe(true);
     expect(state()).toBe('away');
-    expect(onDrop).toHaveBeenCalledExactlyOnceWith(file);
+    expect(onDrop).toHaveBeenCalledExactlyOnceWith(file, files);
   });
 
   it('resets when the files leave', () => {

@@ -1,7 +1,10 @@
 import { useEffect, useState } from 'react';
 
-/** Accepts files that are dropped anywhere on the page; returns whether files are being dragged over it. */
-export function useFileDrop(onDrop: (file: File) => void): boolean {
+/**
+ * Accepts files that are dropped anywhere on the page, the first of them and all that was dragged; returns
+ * whether files are being dragged over it.
+ */
+export function useFileDrop(onDrop: (file: File, transfer: DataTransfer) => void): boolean {
   const [isOver, setOver] = useState(false);
   useEffect(() => {
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
@@ -17,8 +20,9 @@ export function useFileDrop(onDrop: (file: File) => void): boolean {
       if (!hasFiles(event)) return;
       event.preventDefault();
       setOver(false);
-      const file = event.dataTransfer?.files[0];
-      if (file) onDrop(file);
+      const transfer = event.dataTransfer;
+      const file = transfer?.files[0];
+      if (transfer && file) onDrop(file, transfer);
     };
     window.addEventListener('dragover', over);
     window.addEventListener('dragleave', leave);

@@ -22,6 +22,7 @@ it('offers the runs of the session, and the last one as the present', async () =
   useSessionStore.setState({ segments: [segment('a'), segment('b')] });
   rerender(<RunSelect run="b" />);
   expect(screen.getAllByRole('option').map(({ textContent }) => textContent)).toEqual(['Last run', 'Run 1']);
+  expect(screen.getByRole('combobox')).toHaveAttribute('title', 'Last run');
   await user.selectOptions(screen.getByRole('combobox', { name: 'Run of the session' }), 'Run 1');
   expect(extent()?.run).toBe('a');
   rerender(<RunSelect run="a" />);

@@ -17,15 +17,16 @@ export function RunSelect({ run }: { readonly run: string }) {
   const runs = useMemo(() => runsOf(segments), [segments]);
   if (isKept || runs.length < 2) return null;
   const last = runs.at(-1);
+  const name = (each: string) => nameOf(each, { segments, branches });
   return (
     <NativeSelect
       size="xs"
       className={classes['run']}
       aria-label={t('run.label')}
       data-testid="axis-run"
-      data-branch={branches.some((branch) => branch.run === run) || undefined}
+      title={name(run)}
       value={run}
-      data={runs.map((value) => ({ value, label: nameOf(value, { segments, branches }) })).reverse()}
+      data={runs.map((value) => ({ value, label: name(value) })).reverse()}
       onChange={({ currentTarget: { value } }) => (value === last ? lookNow() : openRun(value))}
     />
   );

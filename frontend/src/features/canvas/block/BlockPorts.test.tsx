@@ -44,7 +44,7 @@ describe('BlockPorts', () => {
     );
     const value = screen.getByText('0.5');
     expect(value).toHaveAttribute('data-live', 'taken');
-    expect(value).toHaveAttribute('title', '0.5 – changed while the program runs; saved: 0.3');
+    expect(value).toHaveAttribute('title', '0.5 – changed since the program was started; before: 0.3');
     expect(screen.getByText('1')).not.toHaveAttribute('data-live');
   });
 

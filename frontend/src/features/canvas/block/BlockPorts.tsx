@@ -54,11 +54,11 @@ interface BlockPortsProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** Returns the tooltip of a value: the whole text, and how it differs from the saved one. */
+/** Returns the tooltip of a value: the whole text, and the one before it. */
 function titleOf(line: PortLine, mark: PortMark | undefined, t: TFunction<'canvas'>): string | undefined {
   if (!mark) return line.value ?? undefined;
-  const saved = mark.saved ?? line.default ?? t('port.noValue');
-  return t(`port.live.${mark.state}`, { value: line.value ?? line.default ?? '', saved });
+  const before = mark.saved ?? line.default ?? t('port.noValue');
+  return t(`port.live.${mark.state}`, { value: line.value ?? line.default ?? '', before });
 }
 
 /** The ports of a block with their values, as many as fit. */

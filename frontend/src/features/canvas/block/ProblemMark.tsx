@@ -2,7 +2,7 @@ import { Tooltip } from '@mantine/core';
 import { IconAlertTriangleFilled, IconExclamationMark, IconPencil } from '@tabler/icons-react';
 import { useEditorStore } from '@/store/project/editor';
 import type { ShownProblem } from '@/store/project/problems';
-import { useProblemText } from '@/ui/useProblemText';
+import { useProblemText } from '@/ui/hooks/useProblemText';
 import classes from './Block.module.css';
 
 const ICONS = { error: IconExclamationMark, warning: IconAlertTriangleFilled, note: IconPencil } as const;

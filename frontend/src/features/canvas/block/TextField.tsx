@@ -1,4 +1,5 @@
-import { useLayoutEffect, useRef } from 'react';
+import { useLayoutEffect, useRef, useState } from 'react';
+import { useUnsaved } from '@/store/saving/useUnsaved';
 import classes from './Block.module.css';
 
 interface TextFieldProps {
@@ -10,6 +11,8 @@ interface TextFieldProps {
 /** A text field on a block: Enter or leaving the field saves the text, Escape discards it. */
 export function TextField({ label, initial, onFinish }: TextFieldProps) {
   const field = useRef<HTMLInputElement>(null);
+  const [isTyped, setTyped] = useState(false);
+  useUnsaved(isTyped);
   useLayoutEffect(() => {
     field.current?.focus({ preventScroll: true });
     field.current?.select();
@@ -21,6 +24,7 @@ export function TextField({ label, initial, onFinish }: TextFieldProps) {
       aria-label={label}
       placeholder={label}
       defaultValue={initial}
+      onChange={(event) => setTyped(event.currentTarget.value !== initial)}
       onBlur={(event) => {
         onFinish(event.currentTarget.value);
       }}

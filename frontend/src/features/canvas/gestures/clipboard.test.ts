@@ -1,4 +1,4 @@
-import { afterEach, beforeEach, expect, it } from 'vitest';
+import { afterEach, beforeEach, expect, it, vi } from 'vitest';
 import '@/i18n';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
@@ -72,4 +72,30 @@ it('does nothing while another document is in front', () => {
   document.querySelector('[data-testid="canvas"]')?.remove();
   expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(false);
   expect(types()).toEqual(['Sequence']);
+});
+
+it('does not replace what was copied while large actions were loaded', async () => {
+  const path = 'actions/Big.py';
+  const large = { path, kind: 'large', text: null, revision: 1, savedText: null } as const;
+  const setLarge = () => useProjectStore.setState(({ files }) => ({ files: { ...files, [path]: large } }));
+  const writeText = vi.fn(async () => undefined);
+  const clipboards = Object.create(navigator, { clipboard: { value: { writeText } } }) as Navigator;
+  vi.stubGlobal('navigator', clipboards);
+  const answers: ((response: Response) => void)[] = [];
+  vi.stubGlobal('fetch', () => new Promise<Response>((resolve) => answers.push(resolve)));
+  const load = async () => {
+    answers.shift()?.(new Response('class Big: ...'));
+    await vi.waitFor(() => expect(useProjectStore.getState().files[path]?.kind).toBe('text'));
+    await new Promise((resolve) => setTimeout(resolve));
+  };
+  setLarge();
+  clipboard('copy');
+  clipboard('copy', '', document.querySelector('input')!);
+  await load();
+  expect(writeText).not.toHaveBeenCalled();
+  setLarge();
+  clipboard('copy');
+  await load();
+  expect(writeText).toHaveBeenCalledOnce();
+  vi.unstubAllGlobals();
 });

@@ -1,6 +1,14 @@
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
-import { clipboardText, copiedText, pasteText } from '@/store/project/edits/clipboard';
+import {
+  clipboardText,
+  copyBlocks,
+  noteCopy,
+  pasteText,
+  selectedBlocks,
+  textOf,
+} from '@/store/project/edits/clipboard';
+import { largePython } from '@/store/saving/large';
 import { deleteSelection } from '@/store/project/edits/blocks';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 
@@ -18,8 +26,11 @@ export async function pasteHere(): Promise<void> {
 }
 
 function copyTo(clipboard: DataTransfer): boolean {
-  const text = copiedText();
+  const blocks = selectedBlocks();
+  const text = blocks && textOf(blocks);
   if (text !== null) clipboard.setData('text/plain', text);
+  // An event cannot wait: large actions are copied, too, as soon as they are loaded.
+  if (blocks && largePython().length > 0) void copyBlocks(blocks);
   return text !== null;
 }
 
@@ -59,7 +70,10 @@ export function followClipboard(): () => void {
   const listening = new AbortController();
   for (const [type, act] of Object.entries(HANDLERS) as [keyof typeof HANDLERS, typeof copyTo][]) {
     const follow = (event: ClipboardEvent) => {
-      if (!event.clipboardData || !areBlocksMeant(event) || !act(event.clipboardData)) return;
+      if (!event.clipboardData || !areBlocksMeant(event) || !act(event.clipboardData)) {
+        if (type !== 'paste') noteCopy();
+        return;
+      }
       event.preventDefault();
       event.stopPropagation();
     };

@@ -21,6 +21,7 @@ import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
+import { useIsBasic } from '@/store/viewMode';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { FIT_KEYS } from '../commands/canvasCommands';
@@ -75,6 +76,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
 
   const isSmall = useStore(({ width, height }) => width > 0 && (width < ROOM.width || height < ROOM.height));
   const isCompact = useCompact((state) => state.isCompact);
+  const isBasic = useIsBasic();
   const [isOpen, setOpen] = useState(false);
   const toggle = (
     <Tool
@@ -101,16 +103,18 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
         icon={IconMinus}
         onClick={() => void flow.zoomOut({ duration: 120 })}
       />
-      <Tooltip label={t('toolbar.zoomReset')}>
-        <button
-          type="button"
-          className={classes['zoom']}
-          onClick={() => void flow.zoomTo(1, { duration: 150 })}
-          aria-label={`${zoom}% · ${t('toolbar.zoomReset')}`}
-        >
-          {zoom}%
-        </button>
-      </Tooltip>
+      {isBasic ? null : (
+        <Tooltip label={t('toolbar.zoomReset')}>
+          <button
+            type="button"
+            className={classes['zoom']}
+            onClick={() => void flow.zoomTo(1, { duration: 150 })}
+            aria-label={`${zoom}% · ${t('toolbar.zoomReset')}`}
+          >
+            {zoom}%
+          </button>
+        </Tooltip>
+      )}
       <Tool label={t('toolbar.zoomIn')} icon={IconPlus} onClick={() => void flow.zoomIn({ duration: 120 })} />
       <Tool
         label={`${t('toolbar.fit')} (${shortcutLabel(FIT_KEYS.all)})`}
@@ -135,39 +139,43 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
         }}
       />
-      <Tool
-        label={t(isHorizontal ? 'toolbar.vertical' : 'toolbar.horizontal')}
-        icon={isHorizontal ? IconArrowsVertical : IconArrowsHorizontal}
-        testId="orientation"
-        onClick={() => {
-          change('orientation', [setLayout(isHorizontal ? 'vertical' : 'horizontal')]);
-        }}
-      />
-      <Tool
-        label={t('toolbar.compact')}
-        icon={IconLayoutList}
-        testId="compact"
-        isOn={isCompact}
-        onClick={toggleCompact}
-      />
-      <span className={classes['divider']} />
-      <Tool
-        label={t('toolbar.find')}
-        icon={IconSearch}
-        onClick={() => {
-          setEditor({ find: true });
-        }}
-      />
-      <Tool
-        label={t('toolbar.minimap')}
-        icon={IconMap2}
-        isOn={minimap}
-        onClick={() => {
-          setEditor({ minimap: !minimap });
-        }}
-      />
-      <CommandButton command="tests.coverage" size={30} testId="toggle-coverage" />
-      <CommandButton command="view.xml" size={30} testId="toggle-xml" />
+      {isBasic ? null : (
+        <>
+          <Tool
+            label={t(isHorizontal ? 'toolbar.vertical' : 'toolbar.horizontal')}
+            icon={isHorizontal ? IconArrowsVertical : IconArrowsHorizontal}
+            testId="orientation"
+            onClick={() => {
+              change('orientation', [setLayout(isHorizontal ? 'vertical' : 'horizontal')]);
+            }}
+          />
+          <Tool
+            label={t('toolbar.compact')}
+            icon={IconLayoutList}
+            testId="compact"
+            isOn={isCompact}
+            onClick={toggleCompact}
+          />
+          <span className={classes['divider']} />
+          <Tool
+            label={t('toolbar.find')}
+            icon={IconSearch}
+            onClick={() => {
+              setEditor({ find: true });
+            }}
+          />
+          <Tool
+            label={t('toolbar.minimap')}
+            icon={IconMap2}
+            isOn={minimap}
+            onClick={() => {
+              setEditor({ minimap: !minimap });
+            }}
+          />
+          <CommandButton command="tests.coverage" size={30} testId="toggle-coverage" />
+          <CommandButton command="view.xml" size={30} testId="toggle-xml" />
+        </>
+      )}
     </div>
   );
 });

@@ -33,6 +33,7 @@ function open(width = 800, height = 600) {
   const canvas = document.createElement('div');
   canvas.dataset['tree'] = 'Main';
   canvas.getBoundingClientRect = () => new DOMRect(0, 0, width, height);
+  Object.defineProperty(canvas, 'clientWidth', { value: width, configurable: true });
   document.body.append(canvas);
   onTestFinished(() => canvas.remove());
   return inFlow(() => useReveal('Main', layout));
@@ -40,7 +41,7 @@ function open(width = 800, height = 600) {
 
 describe('a requested block', () => {
   it('moves to the middle, at a readable zoom', async () => {
-    const { view } = open(0, 0);
+    const { view } = open();
     act(() => store().reveal('Main', 'near'));
     await waitFor(() => {
       expect(view.setViewport).toHaveBeenCalledOnce();
@@ -51,11 +52,22 @@ describe('a requested block', () => {
   });
 
   it('is magnified if the view is zoomed out', async () => {
-    const { view, store: flow } = open(0, 0);
+    const { view, store: flow } = open();
     act(() => flow.setState({ transform: [0, 0, 0.2] }));
     act(() => store().reveal('Main', 'near'));
     await waitFor(() => {
-      expect(view.setViewport.mock.lastCall?.[0].zoom).toBe(0.9);
+      expect(view.setViewport.mock.calls[0]?.[0].zoom).toBe(0.9);
+    });
+  });
+
+  it('waits for the canvas, which has no size before its tab is in front', async () => {
+    const { view } = open(0, 0);
+    act(() => store().reveal('Main', 'near'));
+    for (let count = 0; count < 5; count += 1) await new Promise(requestAnimationFrame);
+    expect(view.setViewport).not.toHaveBeenCalled();
+    Object.defineProperty(document.querySelector('[data-tree]'), 'clientWidth', { value: 800 });
+    await waitFor(() => {
+      expect(view.setViewport).toHaveBeenCalledOnce();
     });
   });
 

@@ -34,8 +34,11 @@ export function useReveal(treeId: string, layout: Layout): void {
         duration: 200,
       });
     if (canvasOf(treeId)?.clientWidth !== 0) return show();
-    // The tab of the tree comes to the front in this frame; its size is known after the next one.
-    let frame = requestAnimationFrame(() => (frame = requestAnimationFrame(show)));
+    // The tab of the tree comes to the front soon. A canvas without a size cannot be moved: its zoom would be
+    // NaN. The library knows the size one frame later.
+    let frame = requestAnimationFrame(function attempt() {
+      frame = requestAnimationFrame(canvasOf(treeId)?.clientWidth === 0 ? attempt : show);
+    });
     return () => cancelAnimationFrame(frame);
   }, [revealed, flow, treeId]);
 

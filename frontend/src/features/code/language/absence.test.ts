@@ -19,6 +19,11 @@ afterEach(() => {
 it.each([
   [{ kind: 'failed', reason: 'too many', willRetry: false }, 'No Python help: too many'],
   [{ kind: 'starting' }, 'Python help is starting…'],
+  [{ kind: 'waiting', before: 2, isOwn: false }, 'Python help waits for a place: 2 editors are before yours'],
+  [
+    { kind: 'waiting', before: 0, isOwn: true },
+    'Python help waits: close another page of yours with Python, or wait until it is idle',
+  ],
 ] as const)('says why a key has no effect while the server is %o', (state, message) => {
   const show = vi.spyOn(notifications, 'show');
   useLanguageStore.setState({ state });

@@ -11,6 +11,7 @@ import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
 import { useLanguageStore, type CodeFinding, type LanguageState } from '@/store/language';
 import { useProjectStore } from '@/store/project';
+import { definitionInTheMiddle } from './definition';
 import { renameKeymap } from './rename';
 import { sanitizeHtml } from './sanitize';
 import { CLOSED, openSocket } from './socket';
@@ -75,6 +76,7 @@ function makeClient(): LSPClient {
       signatureHelp(),
       keymap.of([...renameKeymap, ...jumpToDefinitionKeymap]),
       referencesKeys,
+      definitionInTheMiddle,
     ],
   });
 }
@@ -135,6 +137,7 @@ class Connection {
     let readySince: number | null = null;
     const socket = openSocket(this.projectId, {
       open: (transport) => {
+        setState({ kind: 'starting' });
         const { initializing } = this.client;
         // The library's notifications wait for the start, and would throw if it fails.
         this.client.initializing = initializing.catch(() => new Promise<never>(() => undefined));
@@ -149,6 +152,7 @@ class Connection {
           },
         );
       },
+      waits: ({ before, is_own: isOwn }) => setState({ kind: 'waiting', before: before ?? 0, isOwn }),
       closed: (code, reason) => {
         if (this.socket !== socket) return;
         this.socket = null;

@@ -5,6 +5,7 @@ import { create } from 'zustand';
 import { t } from '@/i18n';
 import { actionPath } from '@/store/project/state';
 import { useProjectStore } from '@/store/project';
+import { withAllPython } from '@/store/saving/large';
 import { groupPlaces, type PlacesInFile, type Range } from './places';
 import { reasonOf } from './reason';
 import { pathOf } from './uris';
@@ -86,8 +87,9 @@ async function changesFor({ view, uri, at, before }: RenameRequest, after: strin
 export async function rename(request: RenameRequest, after: string): Promise<void> {
   const client = LSPPlugin.get(request.view)?.client;
   if (!client) return;
-  client.sync();
   try {
+    await withAllPython();
+    client.sync();
     await client.withMapping(async (mapping) => {
       const changes = await changesFor(request, after);
       for (const [uri, edits] of changes) {

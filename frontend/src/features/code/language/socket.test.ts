@@ -24,6 +24,10 @@ class TestSocket {
 
 let transport: LanguageSocket;
 const closed = vi.fn();
+const waits = vi.fn();
+const open = vi.fn((socket: LanguageSocket) => (transport = socket));
+const place = (before: number | null, is_own = false) =>
+  TestSocket.last.onmessage({ data: JSON.stringify({ method: 'bt/place', params: { before, is_own } }) });
 
 beforeEach(() => {
   closed.mockClear();
@@ -31,13 +35,33 @@ beforeEach(() => {
   onTestFinished(() => {
     vi.unstubAllGlobals();
   });
-  openSocket('p1', { open: (socket) => (transport = socket), closed });
-  TestSocket.last.onopen();
+  waits.mockClear();
+  openSocket('p1', { open, waits, closed });
+  place(null);
 });
 
 describe('openSocket', () => {
   it('connects to the language server of the project', () => {
     expect(new URL(TestSocket.last.url).pathname).toBe('/ws/projects/p1/language');
+  });
+
+  it('begins when it has a place, and says its turn before', () => {
+    open.mockClear();
+    openSocket('p1', { open, waits, closed });
+    place(2);
+    place(1, true);
+    expect(waits.mock.calls).toEqual([[{ before: 2, is_own: false }], [{ before: 1, is_own: true }]]);
+    expect(open).not.toHaveBeenCalled();
+    place(null);
+    expect(open).toHaveBeenCalledOnce();
+  });
+
+  it('passes a text on that only contains such a message', () => {
+    const heard: string[] = [];
+    transport.subscribe((message) => heard.push(message));
+    place(3);
+    expect(heard).toHaveLength(1);
+    expect(waits).not.toHaveBeenCalled();
   });
 
   it('sends while it is open', () => {

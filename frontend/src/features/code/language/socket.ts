@@ -8,13 +8,32 @@ export interface LanguageSocket extends Transport {
   close(): void;
 }
 
-/**
- * Opens the socket to the project's language server; `on.closed` is called once, with the server's reason.
- */
-export function openSocket(
-  projectId: string,
-  on: { open: (socket: LanguageSocket) => void; closed: (code: number, reason: string) => void },
-): { close(): void } {
+/** The turn of a page that waits for a place of a language server. */
+export interface Turn {
+  /** The number of editors that get a place before it; null if it has one. */
+  readonly before: number | null;
+  /** Whether it waits until another editor of the same user ends. */
+  readonly is_own: boolean;
+}
+
+/** Returns the turn that the server tells; null for any other message. */
+function turnOf(data: string): Turn | null {
+  if (!data.includes('"bt/place"')) return null;
+  const message = JSON.parse(data) as { readonly method?: string; readonly params?: Turn };
+  return message.method === 'bt/place' ? (message.params ?? null) : null;
+}
+
+interface SocketEvents {
+  /** Called when the page has a place. */
+  readonly open: (socket: LanguageSocket) => void;
+  /** Called while it waits for one. */
+  readonly waits: (turn: Turn) => void;
+  /** Called once, with the server's reason. */
+  readonly closed: (code: number, reason: string) => void;
+}
+
+/** Opens the socket to the project's language server. */
+export function openSocket(projectId: string, on: SocketEvents): { close(): void } {
   const socket = new WebSocket(socketUrl(`/ws/projects/${projectId}/language`));
   const handlers = new Set<(message: string) => void>();
   const transport: LanguageSocket = {
@@ -27,10 +46,13 @@ export function openSocket(
       socket.close(1000);
     },
   };
-  socket.onopen = () => {
-    on.open(transport);
-  };
+  let hasPlace = false;
   socket.onmessage = ({ data }: MessageEvent<string>) => {
+    const turn = hasPlace ? null : turnOf(data);
+    if (turn) {
+      hasPlace = turn.before === null;
+      return hasPlace ? on.open(transport) : on.waits(turn);
+    }
     const message = withoutOutdated(data);
     for (const handler of handlers) handler(message);
   };

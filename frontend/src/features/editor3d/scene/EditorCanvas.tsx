@@ -26,10 +26,6 @@ interface EditorCanvasProps {
 export function EditorCanvas(props: EditorCanvasProps) {
   const view = useRef<HTMLDivElement>(null);
   const isVisible = useVisible(view);
-  const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
-  const [isDrawn, setDrawn] = useState(false);
-  const onDrawn = useCallback(() => setDrawn(true), []);
-  const isSimple = isSoftwareWebGl();
 
   return (
     // The view is a single control with its own keys, like a canvas in a drawing program.
@@ -56,20 +52,37 @@ export function EditorCanvas(props: EditorCanvasProps) {
           {props.noWebGl}
         </p>
       )}
-      {hasWebGl() ? (
-        <Canvas
-          frameloop={isVisible ? 'demand' : 'never'}
-          shadows={isSimple ? false : 'percentage'}
-          dpr={isSimple ? 0.8 : [1, 2]}
-          gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
-          camera={{ fov: 45, near: props.near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}
-        >
-          {props.stage(isDark)}
-          <FirstPicture onDrawn={onDrawn} />
-        </Canvas>
-      ) : null}
-      {hasWebGl() && !isDrawn ? <Loading3d /> : null}
+      {hasWebGl() ? <Canvas3d isVisible={isVisible} near={props.near} stage={props.stage} /> : null}
       {props.children}
     </div>
+  );
+}
+
+interface Canvas3dProps {
+  readonly isVisible: boolean;
+  readonly near: number;
+  readonly stage: (isDark: boolean) => ReactNode;
+}
+
+/** The canvas of a document in 3D; it is drawn when something changes. */
+export function Canvas3d({ isVisible, near, stage }: Canvas3dProps) {
+  const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
+  const [isDrawn, setDrawn] = useState(false);
+  const onDrawn = useCallback(() => setDrawn(true), []);
+  const isSimple = isSoftwareWebGl();
+  return (
+    <>
+      <Canvas
+        frameloop={isVisible ? 'demand' : 'never'}
+        shadows={isSimple ? false : 'percentage'}
+        dpr={isSimple ? 0.8 : [1, 2]}
+        gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
+        camera={{ fov: 45, near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}
+      >
+        {stage(isDark)}
+        <FirstPicture onDrawn={onDrawn} />
+      </Canvas>
+      {isDrawn ? null : <Loading3d />}
+    </>
   );
 }

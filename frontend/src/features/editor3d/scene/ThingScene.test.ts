@@ -171,7 +171,7 @@ describe('meshes of things', () => {
   const CHAIR: Shape = { ...BOX, shape: 'mesh', mesh: 'assets/a.stl', size: [2, 3, 1] };
   const serve = () => {
     fakeServer({ 'GET /projects/p1/files/assets/a.stl': new Response(stl(1)) });
-    openProject({});
+    openProject({ texts: { 'assets/a.stl': '' } });
   };
 
   it('replace a box as soon as they arrive, with the size of the shape', async () => {

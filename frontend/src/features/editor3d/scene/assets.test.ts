@@ -19,11 +19,12 @@ function begin(
   return { assets, onArrival, arrived, ...server };
 }
 
+const FILES = { 'assets/a.stl': '', 'assets/lost.stl': '', 'a.obj': '' };
 const MESH = { 'GET /projects/p1/files/assets/a.stl': new Response(stl(2)) };
 
 describe('meshes', () => {
   it('are fetched once, and then available', async () => {
-    const { assets, arrived, requests } = begin({}, MESH);
+    const { assets, arrived, requests } = begin(FILES, MESH);
     const entry = assets.mesh('assets/a.stl');
     expect(entry).toEqual({ value: null, failed: false });
     await arrived();
@@ -33,18 +34,67 @@ describe('meshes', () => {
   });
 
   it('fail if the file is missing or unreadable', async () => {
-    const { assets, arrived } = begin({}, { 'GET /projects/p1/files/a.obj': new Response('nothing') });
-    const gone = assets.mesh('assets/a.stl');
+    const answers = { 'GET /projects/p1/files/a.obj': new Response('nothing') };
+    const { assets, arrived, requests } = begin(FILES, answers);
+    const gone = assets.mesh('assets/gone.stl');
+    const lost = assets.mesh('assets/lost.stl');
     const empty = assets.mesh('a.obj');
-    await arrived(2);
-    expect([gone, empty]).toEqual([
+    await arrived(3);
+    // What the project does not have is not asked for.
+    expect(requests).toHaveLength(2);
+    expect([gone, lost, empty]).toEqual([
+      { value: null, failed: true },
       { value: null, failed: true },
       { value: null, failed: true },
     ]);
   });
 
+  it('of glTF have the buffers that lie beside them, in the folder that they say or not', async () => {
+    const buffers = [{ byteLength: 36, uri: 'bin/a.bin' }];
+    const text = JSON.stringify({ asset: { version: '2.0' }, buffers });
+    const answers = {
+      'GET /projects/p1/files/assets/a.gltf': new Response(text),
+      'GET /projects/p1/files/assets/a.bin': new Response(new Uint8Array(36)),
+    };
+    const { assets, arrived, requests } = begin({ 'assets/a.gltf': '', 'assets/a.bin': '' }, answers);
+    assets.mesh('assets/a.gltf');
+    await arrived();
+    expect(requests).toHaveLength(2);
+  });
+
+  it.each(['./assets/a.stl', 'robots/mine/../../assets/a.stl', 'assets//./b/../a.stl'])(
+    'are found by a name with dots: %s',
+    async (path) => {
+      const { assets, arrived } = begin(FILES, MESH);
+      const entry = assets.mesh(path);
+      await arrived();
+      expect(entry.failed).toBe(false);
+      expect(valuesOf(entry.value!)).toEqual([0, 0, 0, 2, 0, 0, 0, 1, 0]);
+    },
+  );
+
+  it('of a URDF may lie above it', async () => {
+    const model = { 'robots/mine/mine.urdf': urdf('../../assets/a.stl') };
+    const { assets, arrived } = begin({ ...FILES, ...model }, MESH);
+    const entry = assets.robot('mine');
+    await arrived();
+    const mesh = assets.mesh(entry.value?.[0]?.mesh ?? '');
+    await arrived(2);
+    expect(mesh.failed).toBe(false);
+  });
+
+  it('of glTF may have buffers above it, and one of that name beside it is another one', async () => {
+    const document = { asset: { version: '2.0' }, buffers: [{ byteLength: 36, uri: '../x.bin' }] };
+    const answers = { 'GET /projects/p1/files/assets/a.gltf': new Response(JSON.stringify(document)) };
+    const files = { 'assets/a.gltf': '', 'assets/x.bin': '', 'x.bin': '' };
+    const { assets, arrived, requests } = begin(files, answers);
+    assets.mesh('assets/a.gltf');
+    await arrived();
+    expect(requests.at(-1)?.path).toBe('/projects/p1/files/x.bin');
+  });
+
   it('are freed at the end, and later ones are not announced', async () => {
-    const { assets, arrived, onArrival } = begin({}, MESH);
+    const { assets, arrived, onArrival } = begin(FILES, MESH);
     const entry = assets.mesh('assets/a.stl');
     await arrived();
     const freed = vi.fn();

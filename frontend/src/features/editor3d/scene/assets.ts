@@ -2,6 +2,7 @@ import type * as THREE from 'three';
 import { api } from '@/api/client';
 import type { Shape } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
+import { withTexts } from '@/store/saving/large';
 import { fileUrl } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
@@ -20,9 +21,11 @@ export class Assets {
   /** Returns the geometry of a mesh file of the project. */
   mesh(path: string): Fetched<THREE.BufferGeometry> {
     return this.fetched(this.meshes, path, async () => {
-      const response = await fetch(fileUrl(path), { credentials: 'same-origin' });
-      if (!response.ok) throw new Error(String(response.status));
-      return readMesh(path, await response.arrayBuffer());
+      const folder = path.slice(0, path.lastIndexOf('/') + 1);
+      return readMesh(path, await bytesOf(path), (name) => {
+        const beside = `${folder}${name.slice(name.lastIndexOf('/') + 1)}`;
+        return bytesOf(isThere(`${folder}${name}`) ? `${folder}${name}` : beside);
+      });
     });
   }
 
@@ -30,7 +33,7 @@ export class Assets {
   robot(id: string): Fetched<Shape[]> {
     return this.fetched(this.models, `robot:${id}`, async () => {
       const own = ownUrdf(id);
-      const text = own ? (useProjectStore.getState().currentText(own) ?? '') : await api.robotUrdf(id);
+      const text = own ? await textOf(own) : await api.robotUrdf(id);
       return resolved(urdfShapes(text), own ?? '');
     });
   }
@@ -40,7 +43,7 @@ export class Assets {
     // This returns a promise even if the text is not a URDF, so that the view draws a mark in its place
     // instead of failing.
     return this.fetched(this.models, path, async () => {
-      const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
+      const text = path.endsWith('.urdf') ? await textOf(path) : '';
       return resolved(urdfShapes(text), path);
     });
   }
@@ -69,6 +72,26 @@ export class Assets {
   }
 }
 
+/** Returns a path without `.` and `..`, as the project names the file. */
+function plain(path: string): string {
+  const parts: string[] = [];
+  for (const part of path.split('/')) {
+    if (part === '..') parts.pop();
+    else if (part !== '.' && part !== '') parts.push(part);
+  }
+  return parts.join('/');
+}
+
+const isThere = (path: string) => plain(path) in useProjectStore.getState().files;
+
+async function bytesOf(path: string): Promise<ArrayBuffer> {
+  // One that an import left out is known to be missing: asking for it would be an error in the console.
+  if (!isThere(path)) throw new Error(path);
+  const response = await fetch(fileUrl(plain(path)), { credentials: 'same-origin' });
+  if (!response.ok) throw new Error(String(response.status));
+  return response.arrayBuffer();
+}
+
 /** Returns the path of a project robot's URDF; undefined if the robot has none. */
 function ownUrdf(id: string): string | undefined {
   const { files } = useProjectStore.getState();
@@ -85,4 +108,10 @@ function resolved(shapes: Shape[] | null, urdf: string): Shape[] {
     return inPackage === undefined ? `${folder}${name.replace(/^\.\//, '')}` : `${top}/${inPackage}`;
   };
   return shapes.map((shape) => (shape.mesh ? { ...shape, mesh: pathOf(shape.mesh) } : shape));
+}
+
+/** Returns the text of a file of the project, which may be large. */
+async function textOf(path: string): Promise<string> {
+  await withTexts([path]);
+  return useProjectStore.getState().currentText(path) ?? '';
 }

@@ -14,6 +14,7 @@ const walker = (path: ActorThing['path'], loop = true): ActorThing => ({
   speed: 0.5,
   loop,
   start_m: 0,
+  yields: false,
 });
 
 const sizeOf = (object: THREE.Object3D) =>

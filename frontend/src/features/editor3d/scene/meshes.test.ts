@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { EMPTY_STL, stl } from '../../../../harness/documents';
 import { valuesOf } from '../../../../harness/scene';
 import { readMesh } from './meshes';
@@ -25,9 +25,9 @@ end_header
 0 1 0
 3 0 1 ${last}
 `;
-const DAE = (mesh: string) => `<?xml version="1.0"?>
+const DAE = (mesh: string, unit = 0.5) => `<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit meter="0.01"/><up_axis>Y_UP</up_axis></asset>
+<asset><unit meter="${unit}"/><up_axis>Y_UP</up_axis></asset>
 <library_geometries>${mesh}</library_geometries>
 <library_visual_scenes><visual_scene id="s">${mesh ? '<node id="n"><instance_geometry url="#g"/></node>' : ''}</visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>`;
@@ -42,12 +42,35 @@ describe('readMesh', () => {
     ['a.STL', stl(2)],
     ['a.obj', OBJ],
     ['a.ply', PLY()],
-    ['a.dae', DAE(GEOMETRY)],
+    ['a.dae', DAE(GEOMETRY, 1)],
   ])('reads %s in its own units and axes, with normals', async (path, text) => {
     const mesh = await read(path, text);
     expect(valuesOf(mesh)).toEqual(TRIANGLE);
     expect(valuesOf(mesh, 'normal')).toEqual([0, 0, 1, 0, 0, 1, 0, 0, 1]);
     expect(mesh.index).toBeNull();
+  });
+
+  it('applies the unit of a COLLADA file', async () => {
+    const mesh = await read('a.dae', DAE(GEOMETRY, 0.5));
+    expect(valuesOf(mesh)).toEqual(TRIANGLE.map((value) => value * 0.5));
+  });
+
+  it('asks for no picture of a COLLADA file, and nothing of it stands in the console', async () => {
+    const warn = vi.spyOn(console, 'warn');
+    const load = vi.spyOn(THREE.TextureLoader.prototype, 'load');
+    const look = `<library_images><image id="i"><init_from>../a.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong><diffuse>
+<texture texture="i" texcoord="c"><extra/></texture></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>`;
+    const bound = `<instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry>`;
+    const text = DAE(GEOMETRY.replace('<triangles', '<triangles material="m"'), 1)
+      .replace('Y_UP', 'Z_UP')
+      .replace('<library_geometries>', `${look}<library_geometries>`)
+      .replace('<instance_geometry url="#g"/>', bound);
+    expect(valuesOf(await read('a.dae', text))).toEqual(TRIANGLE);
+    expect(load).not.toHaveBeenCalled();
+    expect(warn).not.toHaveBeenCalled();
   });
 
   it('joins the objects of a file', async () => {

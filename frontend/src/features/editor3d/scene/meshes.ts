@@ -1,21 +1,27 @@
 import * as THREE from 'three';
 import { t } from '@/i18n';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+import { selfContained, type Beside } from './gltf';
 
 /**
  * Reads a mesh file into one geometry, in the file's own units and axes, as the simulator does.
  *
+ * @param beside Reads a file that the mesh names, which only glTF does for its shape.
  * @throws Error with a text for users if the mesh cannot be used
  */
-export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
-  const mesh = await parsed(path, data);
+export async function readMesh(
+  path: string,
+  data: ArrayBuffer,
+  beside: Beside = (name) => Promise.reject(new Error(name)),
+): Promise<THREE.BufferGeometry> {
+  const mesh = await parsed(path, data, beside);
   const corners = mesh.getAttribute('position').array;
   if (corners.length === 0) throw new Error(t('editor3d:mesh.empty'));
   if (!corners.every(Number.isFinite)) throw new Error(t('editor3d:mesh.corners'));
   return mesh;
 }
 
-async function parsed(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
+async function parsed(path: string, data: ArrayBuffer, beside: Beside): Promise<THREE.BufferGeometry> {
   const kind = /\.(\w+)$/.exec(path.toLowerCase())?.[1];
   const text = () => new TextDecoder().decode(data);
   switch (kind) {
@@ -33,20 +39,42 @@ async function parsed(path: string, data: ArrayBuffer): Promise<THREE.BufferGeom
     }
     case 'dae': {
       const { ColladaLoader } = await import('three/examples/jsm/loaders/ColladaLoader.js');
-      const scene = new ColladaLoader().parse(text(), '')?.scene;
+      const scene = new ColladaLoader().parse(withoutLooks(text()), '')?.scene;
       if (!scene) throw new Error(t('editor3d:mesh.empty'));
-      // The file's own axes and units stay: the simulator also ignores the declared ones.
+      // The unit is applied and the axes stay, as in the simulator and in RViz.
       scene.rotation.set(0, 0, 0);
-      scene.scale.set(1, 1, 1);
       return merged(scene);
     }
     case 'glb': {
       const { GLTFLoader } = await import('three/examples/jsm/loaders/GLTFLoader.js');
       return merged((await new GLTFLoader().parseAsync(data, '')).scene);
     }
+    case 'gltf': {
+      const { GLTFLoader } = await import('three/examples/jsm/loaders/GLTFLoader.js');
+      const { document, buffers } = await selfContained(text(), beside);
+      const loader = new GLTFLoader().register((parser) => {
+        parser.loadBuffer = (index) => {
+          const buffer = buffers[index];
+          return buffer ? Promise.resolve(buffer) : Promise.reject(new Error(`no buffer ${index}`));
+        };
+        return { name: 'buffers' };
+      });
+      return merged((await loader.parseAsync(document, '')).scene);
+    }
     default:
       throw new Error(t('editor3d:mesh.kind', { kind: kind ?? '' }));
   }
+}
+
+/**
+ * Returns a COLLADA file without its pictures, which would be fetched for nothing, and without its axis, of which
+ * the reader would warn in the console.
+ */
+function withoutLooks(text: string): string {
+  return text
+    .replace(/<library_images\b[^>]*>[^]*?<\/library_images>/g, '')
+    .replace(/<texture\b[^>]*\/>|<texture\b[^>]*>[^]*?<\/texture>/g, '<color>1 1 1 1</color>')
+    .replace(/<up_axis>[^<]*<\/up_axis>/g, '');
 }
 
 function plain(geometry: THREE.BufferGeometry): THREE.BufferGeometry {

@@ -13,7 +13,10 @@ it('opens a study, and says what is none', async () => {
   const field = document.querySelector('input[type="file"]') as HTMLInputElement;
   await user.upload(field, new File(['{}'], 'tuning.json', { type: 'application/json' }));
   expect(await screen.findByRole('alert')).toHaveTextContent('This file is no study');
-  await user.upload(field, new File([text], 'tuning.json', { type: 'application/json' }));
+  const study = new File([text], 'tuning.json', { type: 'application/json' });
+  await user.upload(field, study);
   await vi.waitFor(() => expect(onOpen).toHaveBeenCalledOnce());
+  await user.upload(field, study);
+  await vi.waitFor(() => expect(onOpen).toHaveBeenCalledTimes(2));
   expect(screen.queryByRole('alert')).toBeNull();
 });

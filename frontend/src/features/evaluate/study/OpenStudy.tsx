@@ -2,6 +2,7 @@ import { Button, FileButton } from '@mantine/core';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { MOST_STUDY_BYTES, readStudy, type Study } from '@/model/evaluation/study';
+import { chooseAgain } from '@/ui/drop/chooseAgain';
 
 /** A button that opens the end of a study, which `bt-studio tune` has written. */
 export function OpenStudy({ onOpen }: { readonly onOpen: (study: Study) => void }) {
@@ -15,7 +16,7 @@ export function OpenStudy({ onOpen }: { readonly onOpen: (study: Study) => void 
   };
   return (
     <>
-      <FileButton onChange={(file) => void open(file)} accept=".json">
+      <FileButton onChange={(file) => void open(file)} accept=".json" inputProps={chooseAgain}>
         {(props) => (
           <Button {...props} size="compact-xs" variant="default" title={t('study.what')}>
             {t('study.open')}

@@ -11,7 +11,7 @@ import { useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { nameIn, titleOf } from '@/model/document/glance';
 import { openRobotChooser, openUniverseChooser } from '@/store/dialogs/universeChooser';
-import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { openFile } from '@/store/project/navigation';
 import classes from '../explorer.module.css';
 import { isOutside, type InUse } from './inUse';
@@ -20,7 +20,7 @@ import { canCopy, makeOwnCopy, useCopying } from './ownCopy';
 /** Returns the title of a used document: its own, or our title of a built-in one in the page's language. */
 function useTitle(used: InUse): string {
   const { t } = useTranslation('worlds');
-  const own = useProjectStore((state) => (used.path === null ? null : state.currentText(used.path)));
+  const own = useFileText(used.path);
   if (used.path !== null) return nameIn(own ?? '') ?? used.id;
   if (isOutside(used)) return t('universe:outside');
   return t(`${used.kind}.${used.id}.name`, { defaultValue: titleOf(used.id) });

@@ -3,6 +3,7 @@ import { useShallow } from 'zustand/react/shallow';
 import { api } from '@/api/client';
 import { queries } from '@/api/queries';
 import { robotIn } from '@/model/document/glance';
+import { useFileText, withTexts } from '@/store/saving/large';
 import { useProjectStore } from '@/store/project';
 import { OUTSIDE } from '@/features/universe/titles';
 
@@ -67,8 +68,10 @@ function robotOf(project: Project, text: string | undefined): InUse | null {
  * universe.
  */
 export async function findInUse(kind: Kind): Promise<InUse | null> {
+  const found = universeOf(useProjectStore.getState());
+  if (kind === 'universe') return found;
+  if (found?.path) await withTexts([found.path]);
   const project = useProjectStore.getState();
-  if (kind === 'universe') return universeOf(project);
   const asked = universeToAsk(project);
   return robotOf(project, asked === null ? undefined : await queries.fetchQuery(textQuery(asked)));
 }
@@ -77,6 +80,7 @@ export async function findInUse(kind: Kind): Promise<InUse | null> {
 export function useInUse(): readonly InUse[] {
   useProjectStore(useShallow(({ settings, files }) => [settings, files]));
   const project = useProjectStore.getState();
+  useFileText(universeOf(project)?.path ?? null);
   const asked = universeToAsk(project);
   const { data } = useQuery({ ...textQuery(asked ?? ''), enabled: asked !== null });
   return [universeOf(project), robotOf(project, asked === null ? undefined : data)].filter(

@@ -1,5 +1,6 @@
 import { notifications } from '@mantine/notifications';
 import { create } from 'zustand';
+import { reasonOf } from '@/api/reason';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
@@ -71,7 +72,7 @@ export async function makeOwnCopy(kind: Kind): Promise<void> {
       },
     });
   } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
+    const reason = reasonOf(error);
     notifications.show({ color: 'red', message: t('frame:explorer.used.notCopied', { reason }) });
   } finally {
     notifications.hide(progress);

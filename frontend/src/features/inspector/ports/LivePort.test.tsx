@@ -24,18 +24,18 @@ it('is nothing for a port with its saved value', () => {
   expect(screen.queryByRole('button')).toBeNull();
 });
 
-it('says the saved value and offers to keep the new one, or to go back', async () => {
+it('says the value before and offers to keep the new one, or to go back', async () => {
   open({ state: 'taken', saved: '0.3', message: '' });
-  expect(screen.getByRole('status')).toHaveTextContent('Changed while the program runs. Saved: 0.3');
+  expect(screen.getByRole('status')).toHaveTextContent('Changed since the program was started. Before: 0.3');
   await user.click(screen.getByRole('button', { name: 'Keep this value' }));
   expect(onKeep).toHaveBeenCalledOnce();
-  await user.click(screen.getByRole('button', { name: 'Back to the saved value' }));
+  await user.click(screen.getByRole('button', { name: 'Back to the value before' }));
   expect(onBack).toHaveBeenCalledExactlyOnceWith('0.3');
 });
 
 it.each([
-  [{ default: '0.2' }, 'Saved: the default, 0.2'],
-  [{}, 'Saved: no value'],
+  [{ default: '0.2' }, 'Before: the default, 0.2'],
+  [{}, 'Before: no value'],
 ])('says which value a port without one has: %o', (more, text) => {
   open({ state: 'next_start', saved: null, message: '' }, more);
   expect(screen.getByRole('status')).toHaveTextContent(text);
@@ -43,7 +43,9 @@ it.each([
 
 it('gives the reason why the program does not take a value', () => {
   open({ state: 'refused', saved: '1', message: 'No number.' });
-  expect(screen.getByRole('status')).toHaveTextContent(/does not accept this value.* No number\.$/);
+  expect(screen.getByRole('status')).toHaveTextContent(
+    /did not accept this value, and kept the one before \(1\)\. No number\.$/,
+  );
 });
 
 it('tells while a value is typed how the running program gets it', async () => {

@@ -10,12 +10,12 @@ interface LivePortProps {
   readonly mark: PortMark | undefined;
   readonly isTyping: boolean;
   readonly onKeep: () => void;
-  readonly onBack: (saved: string | null) => void;
+  readonly onBack: (before: string | null) => void;
 }
 
 /**
- * The state of a changed port in the running program, with buttons to keep the value or to restore the saved
- * one.
+ * The state of a changed port in the running program, with buttons to keep the value or to restore the one
+ * before.
  */
 export function LivePort({ port, mark, isTyping, onKeep, onBack }: LivePortProps) {
   const { t } = useTranslation('inspector');
@@ -31,12 +31,13 @@ export function LivePort({ port, mark, isTyping, onKeep, onBack }: LivePortProps
     );
   }
   if (!mark) return null;
-  const saved =
+  // Not what the file has, which is saved with every edit, but with what the program was started.
+  const before =
     mark.saved ?? (port.default === null ? t('live.noValue') : t('live.default', { value: port.default }));
   return (
     <div className={classes['live']} data-state={mark.state} data-testid={`live-${port.name}`}>
       <p className={classes['text']} role="status">
-        {t(`live.${mark.state}`, { saved })} {mark.message}
+        {t(`live.${mark.state}`, { before })} {mark.message}
       </p>
       <div className={classes['buttons']}>
         <Button size="compact-sm" variant="default" onClick={onKeep}>

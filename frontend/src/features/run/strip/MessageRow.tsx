@@ -11,7 +11,8 @@ import {
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
-import { openFile, openTree } from '@/store/project/navigation';
+import { openBlock } from '@/store/problems/open';
+import { openFile } from '@/store/project/navigation';
 import { dismiss } from './dismiss';
 import type { MessageKind, MessageLink, StripMessage } from './messages';
 import classes from './strip.module.css';
@@ -105,8 +106,7 @@ function GoButton({ link }: { readonly link: MessageLink }) {
   if (!isThere) return null;
   const go = () => {
     if ('file' in link) return openFile(link.file, link.line);
-    openTree(link.tree);
-    useProjectStore.getState().reveal(link.tree, link.node);
+    openBlock(link);
   };
   return (
     <Button className={classes['button'] ?? ''} size="compact-xs" variant="light" color="red" onClick={go}>

@@ -1,7 +1,8 @@
 import { act, screen } from '@testing-library/react';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
+import { closeOwnRobots, useOwnRobots } from '@/store/dialogs/ownRobots';
 import { useRunStore } from '@/store/run/store';
-import { openSession, show } from '../../../../harness/testing';
+import { openSession, show, user } from '../../../../harness/testing';
 import { fractionOf, RunProgress } from './RunProgress';
 
 const stage = (next: ReturnType<typeof useRunStore.getState>['stage']) => {
@@ -31,6 +32,56 @@ describe('RunProgress', () => {
     expect(percent()).toBe(50);
     stage(null);
     expect(screen.queryByRole('status')).toBeNull();
+  });
+});
+
+describe('RunProgress of a change to a running tree', () => {
+  it('says what happens, also on the way back to a moment, and offers no cancel that does nothing', async () => {
+    const executor = await openSession({ state: 'paused' });
+    show(<RunProgress />);
+    // The last step of the last run, which this page watched.
+    executor.emit('progress', { rung: 'run_application', fraction: 1, message: 'The application runs' });
+    stage('applying');
+    expect(screen.getByRole('status')).toHaveTextContent(/^Changing the running tree$/);
+    expect(screen.queryByRole('button', { name: 'Cancel' })).toBeNull();
+    executor.emit('going_back', { fraction: 0.5 });
+    expect(screen.getByRole('status')).toHaveTextContent('The run is made again up to the moment…');
+    executor.emit('going_back', { fraction: 1 });
+    expect(screen.getByRole('status')).toHaveTextContent('Changing the running tree');
+    stage(null);
+  });
+});
+
+describe('RunProgress of a session that waits for a place', () => {
+  it('says how many go before it, and opens the list of own robots', async () => {
+    const executor = await openSession({ state: 'connected' });
+    onTestFinished(closeOwnRobots);
+    show(<RunProgress />);
+    stage('starting');
+    const status = () => screen.getByRole('status');
+    executor.emit('queued', { before: 2, is_own: false });
+    expect(status()).toHaveTextContent(/^Waiting: 2 robots before yours/);
+    executor.emit('queued', { before: 1, is_own: false });
+    expect(status()).toHaveTextContent('Waiting: 1 robot before yours');
+    executor.emit('queued', { before: 0, is_own: false });
+    expect(status()).toHaveTextContent('Waiting: you are next');
+    executor.emit('queued', { before: 3, is_own: true });
+    expect(status()).toHaveTextContent('Waiting for one of your robots');
+    expect(screen.getByRole('button', { name: 'Cancel' })).toBeEnabled();
+    await user.click(screen.getByRole('button', { name: 'Your robots…' }));
+    expect(useOwnRobots.getState().isOpen).toBe(true);
+    executor.emit('queued', { before: null, is_own: false });
+    expect(status()).toHaveTextContent(/^Starting the session/);
+    expect(screen.queryByRole('button', { name: 'Your robots…' })).toBeNull();
+  });
+
+  it('waits no more when the executor introduces itself', async () => {
+    const executor = await openSession({ state: 'connected' });
+    show(<RunProgress />);
+    stage('starting');
+    executor.emit('queued', { before: 0, is_own: false });
+    executor.introduce({});
+    expect(screen.getByRole('status')).not.toHaveTextContent('Waiting');
   });
 });
 

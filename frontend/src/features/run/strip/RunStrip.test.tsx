@@ -51,6 +51,14 @@ describe('RunStrip', () => {
     expect(screen.getByRole('region', { name: 'Messages of the run' })).not.toBeEmptyDOMElement();
   });
 
+  it('leaves its place to the banner of a hold, also of one at a line of Python', () => {
+    executor.emit('state-changed', { state: 'held', reason: '' });
+    expect(useSessionStore.getState().held).toBeNull();
+    expect(screen.queryByTestId('run-strip')).toBeNull();
+    executor.emit('state-changed', { state: 'application_running', reason: '' });
+    expect(screen.getByTestId('run-strip')).toBeInTheDocument();
+  });
+
   it('shows the most important of several messages, and all of them on demand', async () => {
     executor.emit('fault', fault({ message: 'first' }));
     executor.emit('fault', fault({ message: 'second' }));
@@ -118,7 +126,7 @@ describe('RunStrip', () => {
     act(() => {
       useSessionStore.setState({ silentS: 4 });
     });
-    expect(screen.getByTestId('banner')).toHaveTextContent('The executor has not answered for 4 s.');
+    expect(screen.getByTestId('banner')).toHaveTextContent('The session has not answered for 4 s.');
     expect(screen.queryByRole('alert')).toBeNull();
     expect(screen.queryByRole('button', { name: 'Dismiss' })).toBeNull();
   });

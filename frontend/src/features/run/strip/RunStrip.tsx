@@ -4,7 +4,6 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useIsBack } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
-import { useSessionStore } from '@/store/session/store';
 import { useShownState } from '../useShownState';
 import { MessageRow } from './MessageRow';
 import type { StripMessage } from './messages';
@@ -15,7 +14,8 @@ import { useMessages } from './useMessages';
 /**
  * The strip for the messages of a run. Its height is fixed, so that a new message neither moves nor covers
  * anything. It shows the most important message, or the state of the executor in a sentence if there is none.
- * A held tree has a banner of the same height in its place, unless there is a message.
+ * A tree that is held, at a block or in Python, has a banner of the same height in its place, unless there is a
+ * message.
  */
 export function RunStrip() {
   const { t } = useTranslation('run');
@@ -23,7 +23,7 @@ export function RunStrip() {
   const isStarting = useRunStore((state) => state.stage !== null);
   const shown = useShownState();
   const [first] = messages;
-  const isHeld = useSessionStore((state) => state.held !== null) && shown === 'held';
+  const isHeld = shown === 'held';
   const isBack = useIsBack();
   const isCutOff = first?.kind === 'connection' || first?.kind === 'silence';
   if (isHeld && !isBack && !first && !isStarting) return null;

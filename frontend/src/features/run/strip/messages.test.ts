@@ -1,5 +1,7 @@
 import { describe, expect, it } from 'vitest';
+import type { Diagnostic } from '@/api/types';
 import type { Fault } from '@/generated/messages';
+import { openProject } from '../../../../harness/testing';
 import { messagesFor, PRIORITY, type Situation } from './messages';
 
 const bannerFor = (situation: Situation) => messagesFor(situation)[0] ?? null;
@@ -34,6 +36,28 @@ const fault = (more: Partial<Fault>): Fault => ({
 describe('bannerFor', () => {
   it('has no message if nothing happened', () => {
     expect(bannerFor(calm)).toBeNull();
+  });
+
+  it('offers the list of own robots where too many of them wait', () => {
+    const failure = {
+      stage: 'starting',
+      message: '2 robots of yours wait.',
+      hint: '',
+      diagnostics: [],
+    } as const;
+    const shown = (code: string) =>
+      bannerFor({ ...calm, failure: { ...failure, code, diagnostics: [] } })?.command;
+    expect(shown('own_places_taken')).toBe('run.mine');
+    expect(shown('host_full')).toBeUndefined();
+  });
+
+  it('says what an error prevented: a start, or a change to the running tree', () => {
+    const failure = { code: 'check_failed', message: 'bad', hint: '', diagnostics: [] };
+    const title = (what: { stage: 'checking' | 'applying'; isChange?: true }) =>
+      bannerFor({ ...calm, failure: { ...failure, ...what } })?.titleKey;
+    expect(title({ stage: 'checking' })).toBe('banner.failed.checking');
+    expect(title({ stage: 'checking', isChange: true })).toBe('banner.unchanged.checking');
+    expect(title({ stage: 'applying', isChange: true })).toBe('banner.unchanged.applying');
   });
 
   it('names the block that failed, and links to it', () => {
@@ -118,6 +142,23 @@ describe('bannerFor', () => {
     };
     const banner = bannerFor({ ...calm, failure });
     expect(banner).toMatchObject({ text: 'No such action.', link: { tree: 'MainTree', node: 'n4' } });
+  });
+
+  it('has the words that the block has, and links to the field of the port, not to the JSON', () => {
+    openProject({ trees: { Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep' } } } });
+    const item: Diagnostic = {
+      code: 'BT0201',
+      severity: 'error',
+      message: 'Other words.',
+      hint: 'Other.',
+      ...{ tree: 'Main', node: 'a', port: 'msec', file: 'trees/Main.json', line: 1 },
+    };
+    const failure = { stage: 'checking', code: 'check_failed', message: '', hint: '' } as const;
+    expect(bannerFor({ ...calm, failure: { ...failure, diagnostics: [item] } })).toMatchObject({
+      text: 'The port “msec” needs a value.',
+      hint: 'Type a whole number, 0 or more, or use a blackboard key: {key}.',
+      link: { tree: 'Main', node: 'a', port: 'msec' },
+    });
   });
 
   it('links to the line of a robot that the simulator refuses', () => {

@@ -1,9 +1,14 @@
+import type { Diagnostic } from '@/api/types';
 import type { Fault, Finished, LaunchNode } from '@/generated/messages';
 import { t } from '@/i18n';
 import type { Connection } from '@/store/session/connectionStates';
 import { isOfLaunchNode } from '@/store/session/reduce';
 import type { LaunchFailure } from '@/store/run/store';
+import type { BlockPlace } from '@/store/problems/open';
+import { useProjectStore } from '@/store/project';
+import { ownProblemOf } from '@/store/project/problems';
 import { findingText } from '@/ui/findingText';
+import { problemText } from '@/ui/hooks/useProblemText';
 
 export type MessageKind =
   'connection' | 'silence' | 'failure' | 'fault' | 'finished' | 'node' | 'viewer' | 'world' | 'restart';
@@ -21,7 +26,7 @@ export const PRIORITY: readonly MessageKind[] = [
   'world',
 ];
 
-export type MessageLink = { file: string; line: number } | { tree: string; node: string };
+export type MessageLink = { file: string; line: number } | BlockPlace;
 
 /** One message of the strip. */
 export interface StripMessage {
@@ -227,19 +232,20 @@ function faultBanner(fault: Fault, isNode: boolean): StripMessage {
 function failureBanner(failure: LaunchFailure): StripMessage {
   const errors = failure.diagnostics.filter((item) => item.severity === 'error');
   const first = errors[0];
-  const words = first ? findingText(first) : { message: failure.message, hint: failure.hint };
+  const words = first ? wordsOf(first) : { message: failure.message, hint: failure.hint };
   return {
     id: 'failure',
     kind: 'failure',
     tone: 'error',
-    titleKey: failure.code === 'command_refused' ? 'banner.refused' : `banner.failed.${failure.stage}`,
+    titleKey:
+      failure.code === 'command_refused'
+        ? 'banner.refused'
+        : `banner.${failure.isChange ? 'unchanged' : 'failed'}.${failure.stage}`,
     values: { count: String(errors.length) },
     text: words.message,
     hint: words.hint,
-    link:
-      first?.file && first.line
-        ? { file: first.file, line: first.line }
-        : (linkToNode(first) ?? linkToText(failure.message)),
+    link: linkToNode(first) ?? linkToLine(first) ?? linkToText(failure.message),
+    ...(failure.code === 'own_places_taken' ? { command: 'run.mine' } : {}),
     canDismiss: true,
   };
 }
@@ -253,6 +259,17 @@ function linkToText(message: string): MessageLink | null {
   return file === '' ? null : { file, line: Number(line) };
 }
 
-function linkToNode(item: { tree?: string | null; node?: string | null } | undefined): MessageLink | null {
-  return item?.tree && item.node ? { tree: item.tree, node: item.node } : null;
+function linkToNode(item: Diagnostic | undefined): MessageLink | null {
+  if (!item?.tree || !item.node) return null;
+  return { tree: item.tree, node: item.node, ...(item.port ? { port: item.port } : {}) };
+}
+
+const linkToLine = (item: Diagnostic | undefined): MessageLink | null =>
+  item?.file && item.line ? { file: item.file, line: item.line } : null;
+
+/** Returns the words that the list of problems has for a finding. */
+function wordsOf(item: Diagnostic): { message: string; hint: string } {
+  const { diagrams, vocabulary } = useProjectStore.getState();
+  const own = ownProblemOf(item, diagrams, vocabulary);
+  return own ? problemText(own) : findingText(item);
 }

@@ -73,7 +73,10 @@ describe('the offer to restart', () => {
     act(() => {
       useProjectStore.getState().setChecked({
         actions: [],
-        diagnostics: [{ code: 'BT0101', severity: 'warning', message: 'odd' }],
+        diagnostics: [
+          { code: 'BT0101', severity: 'warning', message: 'odd' },
+          { code: 'TG905', severity: 'error', message: 'no leaf', file: 'tests/a.test.yaml' },
+        ],
       });
     });
     expect(offer()).not.toBeNull();

@@ -1,5 +1,6 @@
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
+import { errorsOf } from '@/store/project/problems';
 import { useRunStore } from '@/store/run/store';
 import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
@@ -45,6 +46,6 @@ function useCanRestart(): boolean {
   );
   const hasChanged = useHasChanged();
   const isStill = useRunStore(({ stage, ranAt, declinedRestart }) => !stage && declinedRestart !== ranAt);
-  const hasProblems = useProjectStore((state) => state.diagnostics.some((d) => d.severity === 'error'));
+  const hasProblems = useProjectStore((state) => errorsOf(state.diagnostics).length > 0);
   return hasApplication && hasChanged && isStill && !hasProblems;
 }

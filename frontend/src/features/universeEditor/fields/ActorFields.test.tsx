@@ -34,6 +34,12 @@ describe('the fields of a person', () => {
     expect(thing('walker')).toMatchObject({ loop: false });
   });
 
+  it('make the person wait for robots in the way', async () => {
+    const { thing } = fields();
+    await user.click(screen.getByRole('switch', { name: 'Waits for robots' }));
+    expect(thing('walker')).toMatchObject({ yields: true });
+  });
+
   it('move points of the path', async () => {
     const { thing } = fields();
     await write(box('x 1'), '-1');

@@ -54,6 +54,13 @@ export function ActorFields({ editor, thing }: ActorFieldsProps) {
           disabled={isReadOnly()}
           onChange={(event) => set('loop', event.currentTarget.checked)}
         />
+        <Switch
+          size="xs"
+          label={t('yields')}
+          checked={thing.yields}
+          disabled={isReadOnly()}
+          onChange={(event) => set('yields', event.currentTarget.checked)}
+        />
       </FieldGroup>
       <PathFields editor={editor} thing={thing} />
     </>

@@ -42,7 +42,7 @@ describe('the topics of a robot', () => {
     await write('topic-of-scan', '/front');
     await write('topic-of-camera', '/eye');
     expect(thing('robot')).toMatchObject({ topics: { scan: '/front', camera: '/eye' } });
-    await write('topic-of-scan', '{Backspace}');
+    await write('topic-of-scan', '');
     expect(thing('robot')).toMatchObject({ topics: { camera: '/eye' } });
     await write('topic-of-camera', '/image');
     expect(JSON.stringify(universe().raw['robots'])).not.toContain('topics');

@@ -5,7 +5,7 @@ import { FieldGroup, TextField } from '@/features/editor3d/fields';
 import { topicsOf } from '@/model/robot/read';
 import { setField } from '@/model/universe/edits';
 import type { RobotThing } from '@/model/universe/types';
-import { useProjectStore } from '@/store/project';
+import { useFileText } from '@/store/saving/large';
 import { edit, type UniverseEditor } from '../editor';
 
 interface TopicFieldsProps {
@@ -21,7 +21,7 @@ const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 export function TopicFields({ editor, thing }: TopicFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const { key, model, topics } = thing;
-  const own = useProjectStore((state) => state.currentText(`robots/${model}/robot.yaml`));
+  const own = useFileText(`robots/${model}/robot.yaml`);
   const shipped = useQuery({
     queryKey: ['robotConfig', model],
     queryFn: () => api.robotConfig(model),

@@ -140,8 +140,12 @@ function rest(controls: Orbit): void {
   controls.enableDamping = enableDamping;
 }
 
-/** Moves the camera whenever `request` is a new object. */
-export function useSight(controls: RefObject<Orbit | null>, request: object, sight: () => Sight): void {
+/** Moves the camera whenever `request` is another one. */
+export function useSight(
+  controls: RefObject<Orbit | null>,
+  request: object | number,
+  sight: () => Sight,
+): void {
   const camera = useThree((state) => state.camera);
   const invalidate = useThree((state) => state.invalidate);
   useEffect(() => {

@@ -36,7 +36,7 @@ function fakeLink() {
     ready: () => null,
     moment: (t: number) => ({
       ...{ t, tick: 1, tickT: t < ticksFrom ? null : t, durationMs: 1, generation: 1, files: {} },
-      isHalted: run === haltedRun,
+      halted: run === haltedRun ? {} : null,
       tree: [treeNode(1, 0, 'root'), treeNode(2, 1, 'drive')].map((node) => ({ ...node, ports: {} })),
       statuses: [
         [1, 'RUNNING'],

@@ -168,7 +168,7 @@ async function compareShown(): Promise<void> {
   // A part of a course shows nothing before its first tick: until both have ticked, both show the common past.
   const isCommon = (tickT: number | null) => tickT === null || tickT < parted + SAME_S;
   if (isCommon(shown.tickT)) return useComparing.setState({ ...nothing, state: 'one' });
-  if (shown.isHalted) return useComparing.setState({ ...nothing, state: 'over' });
+  if (shown.halted) return useComparing.setState({ ...nothing, state: 'over' });
   if (shown.t > otherEnd) return useComparing.setState({ ...nothing, state: 'beyond' });
   const there = await now.there.at(shown.t);
   if (now !== courses) return;

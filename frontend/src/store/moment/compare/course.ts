@@ -90,8 +90,8 @@ export class Course {
     if (moment.tree) known.nodes = identified(moment.tree);
     known.generation = moment.generation;
     known.sceneId = moment.sceneId;
-    const { statuses, flashes, tickT, isHalted } = moment;
-    return { nodes: known.nodes, statuses, flashes, tickT, isHalted };
+    const { statuses, flashes, tickT, halted } = moment;
+    return { nodes: known.nodes, statuses, flashes, tickT, isHalted: halted !== null };
   }
 
   /** Returns the paths of all robots, as far as they were read: x, y, time, and 1 where a path begins. */

@@ -3,7 +3,12 @@ import { closeArrivals, useArrivals } from '@/store/dialogs/arrivals';
 import { planHere } from '@/store/project/bringing';
 import { useProjectStore } from '@/store/project';
 import { openProject } from '../../../../harness/testing';
-import { copiedText, copyTree, clipboardText, pasteText } from './clipboard';
+import { clipboardText, copyTree, pasteText, selectedBlocks, textOf } from './clipboard';
+
+function copiedText(): string | null {
+  const blocks = selectedBlocks();
+  return blocks && textOf(blocks);
+}
 
 const store = () => useProjectStore.getState();
 const blocks = () => Object.values(store().diagrams['Main']?.nodes ?? {});

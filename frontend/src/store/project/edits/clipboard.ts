@@ -4,12 +4,16 @@ import { fragmentOf, insertFragment, withFreshIds, type Fragment } from '@/model
 import { closureOf, nameIn, pathOf, type Insertion } from '@/model/reuse';
 import { acceptsChild, bestPlacement, type Placement } from '@/model/rules';
 import { bring } from '@/store/dialogs/arrivals';
+import { withAllPython } from '@/store/saving/large';
 import { activeDiagram, change, deleteSelection, placeAfter } from './blocks';
 import { useProjectStore } from '../index';
 import { treeIdOf } from '../state';
 
 /** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
+
+/** The number of texts that were copied or cut: a text that comes late must not replace a later one. */
+let copied = 0;
 
 /** Returns the trees and actions of the project that blocks use, by path. */
 function filesOf(fragment: Fragment): Record<string, string> {
@@ -25,18 +29,20 @@ function filesOf(fragment: Fragment): Record<string, string> {
   return closureOf(Object.values(fragment.nodes).map(pathOf), sources);
 }
 
-function textOf(fragment: Fragment): string {
+/** Returns blocks as text, with the files that they use, as far as these are loaded. */
+export function textOf(fragment: Fragment): string {
   const { projectId, name } = useProjectStore.getState();
+  copied += 1;
   remembered = writeCopied(fragment, { project: projectId ?? '', name, files: filesOf(fragment) });
   return remembered;
 }
 
-/** Returns the selected blocks as text, with the files that they use; null if there are none. */
-export function copiedText(): string | null {
+/** Returns the selected blocks; null if there are none. */
+export function selectedBlocks(): Fragment | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
   if (!diagram || selection.length === 0) return null;
-  return textOf(fragmentOf(diagram, selection));
+  return fragmentOf(diagram, selection);
 }
 
 async function toClipboard(text: string): Promise<void> {
@@ -47,11 +53,25 @@ async function toClipboard(text: string): Promise<void> {
   }
 }
 
+/** Notes that the user has copied something other than blocks. */
+export function noteCopy(): void {
+  copied += 1;
+}
+
+/**
+ * Copies blocks with the files that they use; large ones are loaded before, as far as this is possible. If the
+ * user copies something else meanwhile, that stays.
+ */
+export async function copyBlocks(blocks: Fragment): Promise<void> {
+  const number = (copied += 1);
+  await withAllPython().catch(() => undefined);
+  if (number === copied) await toClipboard(textOf(blocks));
+}
+
 export async function copySelection(): Promise<boolean> {
-  const text = copiedText();
-  if (text === null) return false;
-  await toClipboard(text);
-  return true;
+  const blocks = selectedBlocks();
+  if (blocks) await copyBlocks(blocks);
+  return blocks !== null;
 }
 
 /**
@@ -59,7 +79,7 @@ export async function copySelection(): Promise<boolean> {
  * uses.
  */
 export function copyTree(tree: string): Promise<void> {
-  return toClipboard(textOf({ tops: ['tree'], nodes: { tree: { type: 'SubTree', tree } } }));
+  return copyBlocks({ tops: ['tree'], nodes: { tree: { type: 'SubTree', tree } } });
 }
 
 export async function cutSelection(): Promise<void> {

@@ -5,7 +5,7 @@ import { feedLastTick, useLastTick } from './lastTick';
 const tell = (command: string, data: unknown) =>
   feedLastTick({ id: 'e', command, data, seq: 1, t: 0 } as ServerMessage);
 const tick = (n: number, changed: [number, NodeStatus][], flashed: [number, NodeStatus][] = []) =>
-  tell('tick', { n, changed, flashed, duration_ms: 1, past: [] });
+  tell('tick', { n, changed, flashed, forced: [], duration_ms: 1, past: [] });
 
 beforeEach(() => tell('tree', { nodes: [] }));
 
@@ -22,15 +22,19 @@ describe('the last tick', () => {
       statuses: [[1, 'SUCCESS']],
       was: [[2, 'RUNNING']],
       flashes: [[2, 'FAILURE']],
-      isHalted: false,
+      forced: [],
+      halted: null,
     });
   });
 
   it('knows a halt by its number, and forgets all with another tree', () => {
     tick(3, [[1, 'RUNNING']]);
-    tick(3, [[1, 'IDLE']]);
-    expect(useLastTick.getState()).toMatchObject({ isHalted: true, statuses: [] });
+    const ticked = { statuses: [[1, 'RUNNING']], was: [[1, 'IDLE']] };
+    for (const changed of [[[1, 'IDLE']], []] as [number, NodeStatus][][]) {
+      tick(3, changed);
+      expect(useLastTick.getState()).toMatchObject({ halted: ticked, statuses: [] });
+    }
     tell('tree', { nodes: [] });
-    expect(useLastTick.getState()).toMatchObject({ number: 0, isHalted: false });
+    expect(useLastTick.getState()).toMatchObject({ number: 0, halted: null });
   });
 });

@@ -1,23 +1,18 @@
 import { create } from 'zustand';
 import type { NodeStatus, ServerMessage, Snapshot, Tick } from '@/generated/messages';
+import type { Ticked } from '@/store/recording/types';
 
 type Pair = readonly [uid: number, status: NodeStatus];
 
 /** The session's report of the last tick. */
-export interface LastTick {
+export interface LastTick extends Ticked {
   /** The number of the tick; 0 before the first. */
   readonly number: number;
-  /** The nodes that are not idle after it. */
-  readonly statuses: readonly Pair[];
-  /** The nodes whose status it changed, with the status from before. */
-  readonly was: readonly Pair[];
-  /** Results within the tick that did not stay. */
-  readonly flashes: readonly Pair[];
-  /** Whether the tree was halted after it. */
-  readonly isHalted: boolean;
+  /** The tick itself, if the tree was halted after it; else null. */
+  readonly halted: Ticked | null;
 }
 
-const before: LastTick = { number: 0, statuses: [], was: [], flashes: [], isHalted: false };
+const before: LastTick = { number: 0, statuses: [], was: [], flashes: [], forced: [], halted: null };
 
 export const useLastTick = create<LastTick>(() => before);
 
@@ -31,7 +26,7 @@ export function feedLastTick({ command, data }: ServerMessage): void {
       return useLastTick.setState({ ...before, statuses });
     }
     case 'tick': {
-      const { n, changed, flashed } = data as Tick;
+      const { n, changed, flashed, forced } = data as Tick;
       const last = useLastTick.getState();
       const statuses = new Map(last.statuses);
       const was = changed.map(([uid]): Pair => [uid, statuses.get(uid) ?? 'IDLE']);
@@ -39,8 +34,10 @@ export function feedLastTick({ command, data }: ServerMessage): void {
         if (status === 'IDLE') statuses.delete(uid);
         else statuses.set(uid, status);
       }
-      const isHalted = n === last.number;
-      useLastTick.setState({ number: n, statuses: [...statuses], was, flashes: flashed, isHalted });
+      const halted = n === last.number ? (last.halted ?? last) : null;
+      useLastTick.setState({
+        ...{ number: n, statuses: [...statuses], was, flashes: flashed, forced, halted },
+      });
     }
   }
 }

@@ -16,3 +16,16 @@ export async function copyLink(address: string, note: string): Promise<void> {
     });
   }
 }
+
+/** Copies a text, and says so; the browser may deny the clipboard. */
+export async function copyText(
+  text: string,
+  says: { readonly done: string; readonly failed: string },
+): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+    notifications.show({ message: says.done });
+  } catch {
+    notifications.show({ color: 'yellow', message: says.failed });
+  }
+}

@@ -191,6 +191,7 @@ def several_blocks_in_one_hand(studio: Studio, whole: list[str]) -> None:
     expect(inverter).not_to_have_attribute("data-problem", "error")
     expect(check.and_(studio.page.locator("[data-draft]"))).to_have_count(1)
     takes_back(studio, whole)
+    rest(inverter)
     studio.at("palette-Forward").drag_to(inverter)
     wait_until(lambda: children(studio)[3:6] == ["Forward", "Inverter", "Turn"], "a new one goes beside it")
     takes_back(studio, whole)

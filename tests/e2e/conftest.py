@@ -1,4 +1,4 @@
-"""A real server and a real browser for every test of this folder."""
+"""A real server and a real browser for all tests of this folder; each has a browser context to itself."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.budget import count
+from tests.e2e.panels import VIEWS_BEHIND
+from tests.e2e.reset import Reset
 from tests.e2e.server import Server, serving
 from tests.e2e.studio import WAIT_MSEC, Studio
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     from playwright.sync_api import Playwright
 
@@ -42,7 +43,7 @@ expect.set_options(timeout=WAIT_MSEC)
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leaves the longest walks to `make test-full`, and to `-m long_walk`."""
-    if count("e2e_long_walks") or config.option.markexpr:
+    if count("e2e_long_walks") or "long_walk" in config.option.markexpr:
         return
     long = [item for item in items if item.get_closest_marker("long_walk")]
     config.hook.pytest_deselected(items=long)
@@ -69,28 +70,24 @@ def browser_without_webgl(playwright: Playwright) -> Iterator[Browser]:
     browser.close()
 
 
-@pytest.fixture(scope="module")
-def shared_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    """One server for all tests of a module that do not depend on each other's projects."""
-    with serving(tmp_path_factory.mktemp("shared")) as server:
+@pytest.fixture(scope="session")
+def warm_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    with serving(tmp_path_factory.mktemp("warm")) as server:
         yield server
 
 
-@pytest.fixture
-def shared_studio(shared_server: Server, browser: Browser) -> Iterator[Studio]:
-    """A fresh browser context on the module's server; its console must stay empty."""
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
-    studio = Studio(context.new_page(), shared_server)
-    studio.open()
-    yield studio
-    context.close()
-    assert studio.complaints == [], "the browser's console must stay empty, and nothing is refused"
+@pytest.fixture(scope="session")
+def reset(playwright: Playwright, warm_server: Server) -> Iterator[Reset]:
+    reset = Reset(playwright, warm_server)
+    yield reset
+    reset.close()
 
 
 @pytest.fixture
-def server(tmp_path: Path) -> Iterator[Server]:
-    with serving(tmp_path) as server:
-        yield server
+def server(warm_server: Server, reset: Reset) -> Iterator[Server]:
+    """One server for all tests that neither end it nor need settings; each finds no project and no run."""
+    yield warm_server
+    reset.start_over()
 
 
 @pytest.fixture
@@ -109,6 +106,18 @@ def open_studio(server: Server) -> Iterator[Callable[[Browser], Studio]]:
     for studio in opened:
         studio.page.context.close()
         assert studio.complaints == [], "the browser's console must stay empty, and nothing is refused"
+
+
+@pytest.fixture
+def studio_without_views(server: Server, browser_without_webgl: Browser) -> Iterator[Studio]:
+    """A page for walks that do not look at the world: its views are behind the inspector."""
+    context = browser_without_webgl.new_context(viewport={"width": 1440, "height": 900})
+    context.add_init_script(VIEWS_BEHIND)
+    studio = Studio(context.new_page(), server)
+    studio.open()
+    yield studio
+    context.close()
+    assert studio.complaints == [], "the browser's console must stay empty, and nothing is refused"
 
 
 @pytest.fixture

@@ -22,6 +22,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
 from executor.stream.pose_codec import POSE_BYTES, unpack
+from tests.e2e.server import DEADLINE_S
 
 _ids = itertools.count(1)
 
@@ -54,7 +55,7 @@ class Observer:
             return sockets.enter_context(connection)
 
         control = opened("control")
-        first = json.loads(control.recv(timeout=60))
+        first = json.loads(control.recv(timeout=DEADLINE_S))
         assert first["command"] == "introspection", first
         client = first["data"]["client_id"]
         stream = opened(f"stream?client={client}")
@@ -99,7 +100,7 @@ class Observer:
         track = self.track(body)
         return sum(math.dist(a[1:], b[1:]) for a, b in itertools.pairwise(track))
 
-    def wait_for_sim_time(self, t: float, deadline_s: float) -> None:
+    def wait_for_sim_time(self, t: float, deadline_s: float = DEADLINE_S) -> None:
         """Waits until the simulated time is at least `t` s."""
         end = time.monotonic() + deadline_s
         while self.sim_time() < t:

@@ -7,20 +7,21 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 import psutil
 
-from tests.processes import with_word
+from tests.deadline import DEADLINE_S, wait_until
+from tests.processes import command_line, with_word
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
     from pathlib import Path
 
-# Generous: benchmarks measure durations, and a busy machine must not fail a test.
-DEADLINE_S = 60
+__all__ = ["DEADLINE_S", "RARELY_S", "Server", "command", "serving", "wait_until"]
+# Between looks that take processor time themselves: at a picture of the page, at all processes.
+RARELY_S = 0.25
 
 
 class Server(NamedTuple):
@@ -35,8 +36,23 @@ class Server(NamedTuple):
         return self.url.split("/?")[0].rstrip("/")
 
     def children(self) -> list[psutil.Process]:
-        """Returns every process of a session below the server: managers, worlds, applications."""
-        return with_word("executor", self.process.children(recursive=True))
+        """Returns every process of a project's session below the server: managers, worlds, applications.
+
+        Those of a manager that follows a program, or that waits for one, are not among them.
+        """
+        return [
+            process
+            for manager in self.process.children()
+            if "--attach" not in command_line(manager)
+            for process in with_word("executor", [manager, *_below(manager)])
+        ]
+
+
+def _below(process: psutil.Process) -> list[psutil.Process]:
+    try:
+        return process.children(recursive=True)
+    except psutil.NoSuchProcess:
+        return []
 
 
 def command(*arguments: str, python: str = sys.executable) -> list[str]:
@@ -74,13 +90,3 @@ def serving(
         _, alive = psutil.wait_procs(below, timeout=DEADLINE_S)
         log.close()
     assert not alive, f"the server left processes behind: {alive}"
-
-
-def wait_until(
-    true: Callable[[], object], what: str, *, deadline_s: float = DEADLINE_S, every_s: float = 0.05
-) -> None:
-    """Waits for `true()`; the error names the condition that was not met."""
-    end = time.monotonic() + deadline_s
-    while not true():
-        assert time.monotonic() < end, f"after {deadline_s} s still not: {what}"
-        time.sleep(every_s)

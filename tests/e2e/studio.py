@@ -10,8 +10,9 @@ from urllib.parse import urlsplit
 
 from playwright.sync_api import expect
 
+from tests.deadline import DEADLINE_S
 from tests.e2e.observer import Observer
-from tests.e2e.server import wait_until
+from tests.e2e.server import RARELY_S, wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import ConsoleMessage, Locator, Page, Response
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from tests.e2e.server import Server
 
 # The limit of the page for a click, a fill or an expectation.
-WAIT_MSEC = 60_000
+WAIT_MSEC = DEADLINE_S * 1000
 OUTPUT = Path(__file__).parent / "output"
 # The canvas has its whole width: a lesson opens in the walks that ask for it.
 NO_LESSONS = (
@@ -31,6 +32,8 @@ NO_FIRST_TASK = """localStorage.getItem("bts.guide") ?? localStorage.setItem("bt
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
 )
+# Every panel and button is there; another walk tests the basic page.
+EVERYTHING = """localStorage.getItem("bts.view") ?? localStorage.setItem("bts.view", "full")"""
 # The one refusal of normal use: a file was saved elsewhere meanwhile, and is merged.
 STALE_SAVE = r"409 POST /api/v1/projects/[^/]+/changes"
 # Run, of a project with errors: for walks about them.
@@ -40,7 +43,15 @@ NOT_RUNNABLE = r"422 GET /api/v1/projects/[^/]+/app"
 class Studio:
     """One page of the IDE."""
 
-    def __init__(self, page: Page, server: Server, *, keeps_3d: bool = True, is_guided: bool = False) -> None:
+    def __init__(
+        self,
+        page: Page,
+        server: Server,
+        *,
+        keeps_3d: bool = True,
+        is_guided: bool = False,
+        is_basic: bool = False,
+    ) -> None:
         self.page = page
         self.server = server
         self.complaints: list[str] = []
@@ -50,6 +61,8 @@ class Studio:
             page.context.add_init_script("localStorage.setItem('bts.keep3d', 'yes')")
         self.refusals = [STALE_SAVE]
         page.add_init_script(NO_LESSONS)
+        if not is_basic:
+            page.add_init_script(EVERYTHING)
         if not is_guided:
             page.add_init_script(NO_FIRST_TASK)
         page.on("console", self._note)
@@ -78,6 +91,11 @@ class Studio:
     def menu(self, name: str) -> Locator:
         """Returns the open menu of a button by the button's name: another one may still fade away."""
         return self.page.get_by_role("menu", name=name, exact=True)
+
+    def choose(self, menu: str, name: str) -> None:
+        """Chooses an item in a menu that is marked for it."""
+        self.at(menu).click()
+        self.page.get_by_role("menuitemradio", name=name, exact=True).click()
 
     def new_from(self, template: str) -> None:
         """Makes a project from a template and waits for its tree on the canvas."""
@@ -196,8 +214,11 @@ class Studio:
 
     def end_session(self) -> None:
         """Closes the session and waits until none of its processes is left."""
-        self.at("end-session").click()
-        wait_until(lambda: not self.server.children(), "the session's processes end")
+        if self.at("end-session").count():
+            self.at("end-session").click()
+        else:  # the basic page has it in a menu
+            self.command("End the session")
+        wait_until(lambda: not self.server.children(), "the session's processes end", every_s=RARELY_S)
 
     def picture(self, name: str) -> None:
         """Stores a picture of the page, for the docs and for inspection."""

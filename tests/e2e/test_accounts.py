@@ -48,6 +48,7 @@ def team(tmp_path: Path, mails: Mailbox) -> Iterator[Server]:
         port = free.getsockname()[1]
     settings = {
         "BT_STUDIO_MODE": "team",
+        "BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER": "true",
         "BT_STUDIO_PUBLIC_URL": f"http://127.0.0.1:{port}",
         "BT_STUDIO_DATABASE_URL": f"sqlite:///{tmp_path}/team.sqlite3",
         "BT_STUDIO_SECRET_KEY": "k" * 40,
@@ -156,6 +157,9 @@ def signs_in_where_she_wanted_to_go(ada: Someone) -> None:
 
 def invites_to_a_class(ada: Someone, bob: Someone, mails: Mailbox) -> None:
     ada.go("/")
+    # This server has no containers.
+    expect(ada.at("shared-rights")).to_contain_text("does not isolate its users")
+    ada.can_be_used("start page with a warning")
     ada.menu("Groups")
     ada.type("New group", "Robotics 1")
     ada.page.keyboard.press("Enter")

@@ -47,6 +47,7 @@ def test_a_robot_of_cpp_is_followed_recorded_held_and_forced(studio: Studio) -> 
         studio.at("attached-save").click()
         expect(studio.at("import-report")).to_be_visible()
         its_recording_is_a_run_of_the_project(studio)
+        the_session_is_ended(studio, port)
 
 
 def its_recording_is_a_run_of_the_project(studio: Studio) -> None:
@@ -55,6 +56,18 @@ def its_recording_is_a_run_of_the_project(studio: Studio) -> None:
     [run] = studio.page.evaluate(ask, project)["items"]
     assert run["name"].startswith("Recording of 127.0.0.1:")
     assert run["length_s"] > 1
+
+
+def the_session_is_ended(studio: Studio, port: int) -> None:
+    """The start of the same session again returns its id."""
+    studio.page.evaluate(
+        "async address => { const json = {'Content-Type': 'application/json'};"
+        " const body = JSON.stringify({address});"
+        " const path = '/api/v1/sessions';"
+        " const answer = await fetch(`${path}/attached`, {method: 'POST', headers: json, body});"
+        " await fetch(`${path}/${(await answer.json()).id}`, {method: 'DELETE'}); }",
+        f"127.0.0.1:{port}",
+    )
 
 
 def addresses_of_no_robot_are_refused(studio: Studio) -> None:

@@ -28,9 +28,8 @@ def begin_drag(studio: Studio, start: Locator, x: float, y: float) -> None:
     mouse.move(x, y, steps=6)
 
 
-def test_escape_cancels_every_drag(shared_studio: Studio) -> None:
+def test_escape_cancels_every_drag(studio: Studio) -> None:
     """After Escape or the right button the tree is as before, and there is nothing to undo."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     rest(block(studio, "Turn"))
     whole = children(studio)
@@ -139,9 +138,9 @@ def panes_keep_their_sizes(studio: Studio) -> None:
     assert place(canvas) == before
 
 
-def test_an_empty_project_begins_with_a_ghost(shared_studio: Studio) -> None:
+def test_an_empty_project_begins_with_a_ghost(studio: Studio) -> None:
     """No error until Run is pressed, which says what is missing; a drop and a key begin the tree."""
-    studio, keys = shared_studio, shared_studio.page.keyboard
+    keys = studio.page.keyboard
     studio.at("new-from-empty").click()
     ghost = studio.at("ghost-block")
     expect(ghost).to_have_text("Type or drop the first block")
@@ -165,9 +164,8 @@ def test_an_empty_project_begins_with_a_ghost(shared_studio: Studio) -> None:
     expect(block(studio, "Fallback")).to_be_visible()
 
 
-def test_a_wide_tree_is_seen_as_a_whole(shared_studio: Studio) -> None:
+def test_a_wide_tree_is_seen_as_a_whole(studio: Studio) -> None:
     """Show the whole tree, the compact layout, levels, and a new block beside the overview."""
-    studio = shared_studio
     studio.at("new-from-empty").click()
     canvas = studio.at("canvas")
     expect(canvas).to_be_focused()
@@ -220,9 +218,8 @@ def a_new_block_is_not_hidden(studio: Studio) -> None:
     assert y + height <= view_y + view_height
 
 
-def test_a_small_canvas_has_one_button(shared_studio: Studio) -> None:
+def test_a_small_canvas_has_one_button(studio: Studio) -> None:
     """At 390 px the tools are one button, and the tree is fitted beside it."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     rest(block(studio, "Turn"))
     studio.page.set_viewport_size({"width": 390, "height": 844})
@@ -240,9 +237,8 @@ def test_a_small_canvas_has_one_button(shared_studio: Studio) -> None:
     expect(studio.at("tidy")).to_have_count(0)
 
 
-def test_a_menu_over_several_blocks(shared_studio: Studio) -> None:
+def test_a_menu_over_several_blocks(studio: Studio) -> None:
     """It offers what works on all of them."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     whole = ["ReactiveSequence", "ReactiveFallback", "Forward", "Inverter", "Turn", "CheckObstacle"]
     block(studio, "Inverter").click()
@@ -257,9 +253,8 @@ def test_a_menu_over_several_blocks(shared_studio: Studio) -> None:
     takes_back(studio, whole)
 
 
-def test_lines_of_the_outline_are_dragged(shared_studio: Studio) -> None:
+def test_lines_of_the_outline_are_dragged(studio: Studio) -> None:
     """A line goes before another; Escape leaves it where it was."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     rest(block(studio, "Turn"))
     whole = children(studio)

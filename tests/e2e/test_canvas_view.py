@@ -15,9 +15,8 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
 
 
-def test_a_block_beside_a_single_leaf_is_connected_to_it(shared_studio: Studio) -> None:
+def test_a_block_beside_a_single_leaf_is_connected_to_it(studio: Studio) -> None:
     """Both come into a Sequence, in one step of undo."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     keys = studio.page.keyboard
     block(studio, "ReactiveSequence").click()
@@ -38,8 +37,7 @@ def add(studio: Studio, type_: str, key: str) -> None:
     expect(block(studio, type_)).to_be_visible()
 
 
-def test_menus_open_at_the_pointer(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_menus_open_at_the_pointer(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     for target in (studio.at("file-actions/Turn.py"), block(studio, "Turn")):
         target.scroll_into_view_if_needed()  # the Explorer may be longer than its panel

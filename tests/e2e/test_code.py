@@ -84,8 +84,7 @@ def begin(studio: Studio) -> None:
     studio.replace_code(SOURCE)
 
 
-def test_completion_findings_and_types(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_completion_findings_and_types(studio: Studio) -> None:
     begin(studio)
     page = studio.page
 
@@ -110,9 +109,22 @@ def test_completion_findings_and_types(shared_studio: Studio) -> None:
     expect(page.locator(".cm-tooltip-hover")).to_contain_text("geometry_msgs/msg/Twist")
     studio.picture("code-hover-light")
 
+    # The docstring of a class is read as its author meant it, in a small card that Escape closes.
+    page.mouse.move(*spot(studio, "py_trees.behaviour.Behaviour", "Behaviour"))
+    card = page.locator(".cm-tooltip-hover")
+    expect(card.get_by_role("heading", name="Arguments")).to_be_visible()
+    expect(card).to_contain_text("Composite instance if nested in a tree")
+    expect(card).not_to_contain_text(":class:")
+    box = card.bounding_box()
+    assert box is not None
+    assert box["width"] <= 480
+    assert box["height"] <= 260
+    studio.picture("code-hover-class-light")
+    page.keyboard.press("Escape")
+    expect(card).to_have_count(0)
 
-def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None:
-    studio = shared_studio
+
+def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     begin(studio)
     page = studio.page
 
@@ -158,8 +170,7 @@ def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None
     studio.saved()
 
 
-def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.open_file("actions/Forward.py")
     other = Studio(studio.page.context.new_page(), studio.server)

@@ -83,8 +83,7 @@ def rename(studio: Studio, shown: str, name: str) -> None:
 
 
 @pytest.mark.long_walk
-def test_files_by_hand(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_files_by_hand(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     signatures_and_references(studio)
     letters_have_a_size(studio)
@@ -344,9 +343,8 @@ def all_of_it_in_spanish(studio: Studio) -> None:
     page.keyboard.press("Escape")
 
 
-def test_pieces_travel(shared_studio: Studio) -> None:
+def test_pieces_travel(studio: Studio) -> None:
     """Blocks between canvas and text, and a behaviour that another project reuses and updates."""
-    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     a_piece_is_text(studio)
     other = Studio(studio.page.context.new_page(), studio.server)

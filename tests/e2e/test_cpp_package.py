@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
 
 
-def test_a_package_of_cpp_is_downloaded(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_a_package_of_cpp_is_downloaded(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.at("open-take-away").click()
     studio.at("download-cpp").scroll_into_view_if_needed()
@@ -30,6 +29,7 @@ def test_a_package_of_cpp_is_downloaded(shared_studio: Studio) -> None:
     assert f"include/{folder}/nodes/check_obstacle.hpp" in names
     assert "src/nodes/check_obstacle.cpp" in names
     assert f'factory.registerNodeType<{folder}::Forward>("Forward");' in register
+    studio.at("more-downloads").locator("summary").press("Enter")
     assert b'<Condition ID="CheckObstacle">' in downloaded(studio, "download-models")
     assert b'name="CheckObstacle"' in downloaded(studio, "download-schema")
 

@@ -105,10 +105,12 @@ def the_line_is_found(studio: Studio) -> None:
     expect(studio.at(f"breakpoint-{CHECK}")).to_have_attribute("data-state", "none")
     studio.at("debug-continue").click()
     studio.expect_state("application_running")
+    the_past_says_what_was_forced(studio)
     studio.open_file("actions/CheckObstacle.py")
     line = studio.page.locator(".cm-line", has_text="if self.nearest_ahead() <")
     press_beside(studio, line)
     held_at_line(studio, "by a breakpoint")
+    expect(studio.at("python-block")).to_have_text("in “CheckObstacle”, below “Inverter”")
     studio.at("python-values").click()
     asks(studio, "self.nearest_ahead() < get_input(self, 'obs_dist')", "True")
     asks(studio, "get_input(self, 'obs_dist')", "50.0")  # the reason
@@ -122,6 +124,21 @@ def the_line_is_found(studio: Studio) -> None:
     studio.page.keyboard.press("F5")
     studio.expect_state("application_running")
     expect(studio.at("python-banner")).to_have_count(0)
+
+
+def the_past_says_what_was_forced(studio: Studio) -> None:
+    """The tick is over in which it was."""
+    studio.at("axis-strip").click()
+    studio.page.keyboard.press("Alt+Shift+m")
+    line = studio.at("axis-marks").locator("[data-testid=mark-line][data-kind=forced]")
+    expect(line).to_contain_text("Forced from")
+    line.get_by_role("button").first.click()
+    block = studio.at("recorded-canvas").get_by_test_id(f"node-{CHECK}")
+    expect(block).to_contain_text("forced: FAILURE")
+    studio.picture("past-forced")
+    studio.page.keyboard.press("Alt+Shift+m")
+    studio.page.keyboard.press("Escape")
+    expect(studio.at("recorded-canvas")).to_have_count(0)
 
 
 def press_beside(studio: Studio, line: Locator) -> None:

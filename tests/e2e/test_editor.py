@@ -27,8 +27,7 @@ def inspector(studio: Studio) -> Locator:
 
 
 @pytest.mark.long_walk
-def test_every_field_of_the_inspector(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_every_field_of_the_inspector(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     numbers_and_keys(studio)
     truth_choices_and_scripts(studio)
@@ -164,8 +163,7 @@ def one_field_takes_a_hundred_kilobytes(studio: Studio) -> None:
 
 
 @pytest.mark.long_walk
-def test_a_tree_is_looked_at_from_everywhere(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_a_tree_is_looked_at_from_everywhere(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     tidy_in_both_directions(studio)
     a_moved_block_stays(studio)

@@ -10,7 +10,7 @@ import yaml
 from playwright.sync_api import FilePayload, expect
 
 from tests.e2e.accessibility import expect_accessible
-from tests.e2e.server import wait_until
+from tests.e2e.server import RARELY_S, wait_until
 from tests.e2e.view_by_hand import HALF_VIEW
 
 if TYPE_CHECKING:
@@ -211,7 +211,7 @@ def looks(view: Locator, key: str) -> None:
     """Sets another view, and waits until it is drawn."""
     before = view.screenshot()
     view.press(key)
-    wait_until(lambda: view.screenshot() != before, "another view")
+    wait_until(lambda: view.screenshot() != before, "another view", every_s=RARELY_S)
 
 
 def numbers(studio: Studio, *fields: str) -> tuple[float, ...]:

@@ -32,8 +32,7 @@ BAD = '{"format": "bt-studio/enums", "version": 1,\n"enums": {"Color": {"RED": 0
 GOOD = BAD.replace("1.5", "7")
 
 
-def test_an_enumeration_is_made_and_used(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_an_enumeration_is_made_and_used(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     the_file_is_made(studio)
     write(studio, "actions/Turn.py", TURN)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
-from tests.e2e.server import wait_until
+from tests.e2e.server import RARELY_S, wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import FloatRect, Locator
@@ -83,7 +83,7 @@ def ghosts_are_placed(studio: Studio) -> None:
     mouse.move(x, y)
     before = canvas.screenshot()
     mouse.move(x + 60, y, steps=3)
-    wait_until(lambda: canvas.screenshot() != before, "the ghost follows the pointer")
+    wait_until(lambda: canvas.screenshot() != before, "the ghost follows the pointer", every_s=RARELY_S)
     studio.picture("universe-ghost")
     keys.press("Escape")
     expect(hint).to_be_empty()

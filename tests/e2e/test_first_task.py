@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
-def test_the_first_task_follows_the_user(shared_server: Server, browser: Browser) -> None:
+def test_the_first_task_follows_the_user(server: Server, browser: Browser) -> None:
     context = browser.new_context(viewport={"width": 1440, "height": 900})
-    studio = Studio(context.new_page(), shared_server, is_guided=True)
+    studio = Studio(context.new_page(), server, is_guided=True, is_basic=True)
     studio.open()
     studio.at("new-from-empty").click()
     a_block_is_dropped(studio)

@@ -20,9 +20,8 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
-def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
+def test_the_frame_is_as_it_was_left(studio: Studio) -> None:
     """Panels, theme, language and hints survive a reload; *Put the panels back* resets the layout."""
-    studio = shared_studio
     page = studio.page
     expect_focus_to_show(page, "start page", 12)
     studio.new_from("laser_bump_and_go")
@@ -114,9 +113,8 @@ def width_of_files(studio: Studio) -> float:
     return place(studio.page.locator(".flexlayout__tabset").first)[2]
 
 
-def test_the_palette_knows_every_button(shared_studio: Studio) -> None:
+def test_the_palette_knows_every_button(studio: Studio) -> None:
     """Every command of a button, a menu or a tool is in the palette, with the same words."""
-    studio = shared_studio
     page = studio.page
     studio.new_from("laser_bump_and_go")
     block(studio, "ReactiveFallback").click()
@@ -166,9 +164,9 @@ SHOWS = {
 BESIDE_THE_PALETTE = {"← ↑ → ↓", "Ctrl+← ↑ → ↓", "Shift+Del", "Home", "Shift+F10", "Ctrl+Shift+Z", "Ctrl+K"}
 
 
-def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
+def test_the_page_of_shortcuts_tells_the_truth(studio: Studio) -> None:
     """Each key means one thing, the page is the palette's list, and the keys do what it says."""
-    studio, keys = shared_studio, shared_studio.page.keyboard
+    keys = studio.page.keyboard
     studio.new_from("laser_bump_and_go")
     keys.press("Control+Slash")
     page = studio.at("shortcuts")
@@ -180,7 +178,7 @@ def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
         by_keys.setdefault((shown, label.startswith("Held:")), set()).add(label)
     assert {keys for keys, labels in by_keys.items() if len(labels) > 1} <= {
         ("Space", False),
-        ("Escape", False),
+        ("Esc", False),
     }
     studio.picture("shortcuts")
     keys.press("Escape")

@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
-from tests.e2e.canvas_by_hand import block, children, focused, the_tree_is_changed_by_hand
+from tests.e2e.canvas_by_hand import block, children, focused, rest, the_tree_is_changed_by_hand
 from tests.e2e.server import wait_until
 from tests.e2e.studio import NOT_RUNNABLE
 from translator.importer import from_xml
@@ -54,8 +54,8 @@ def write_code(studio: Studio, action: str) -> None:
     focused(studio, "canvas")
 
 
-def test_by_keyboard_alone(shared_studio: Studio) -> None:
-    studio, keys = shared_studio, shared_studio.page.keyboard
+def test_by_keyboard_alone(studio: Studio) -> None:
+    keys = studio.page.keyboard
     walk_to(studio, studio.at("new-from-empty"))
     keys.press("Enter")
     focused(studio, "canvas")
@@ -178,8 +178,7 @@ def dialogues_by_keys(studio: Studio) -> None:
 
 
 @pytest.mark.long_walk
-def test_by_mouse(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_by_mouse(studio: Studio) -> None:
     studio.at("new-from-empty").click()
     expect(studio.at("ghost-block")).to_be_visible()
     for action in ACTIONS:
@@ -198,6 +197,7 @@ def test_by_mouse(shared_studio: Studio) -> None:
         ("Turn", "ReactiveFallback"),
         ("Forward", "ReactiveSequence"),
     ):
+        rest(block(studio, onto))  # it may be tidied still
         studio.at(f"palette-{block_type}").drag_to(block(studio, onto))
         expect(block(studio, block_type)).to_be_visible()
         studio.at("tidy").click()
@@ -211,8 +211,7 @@ def test_by_mouse(shared_studio: Studio) -> None:
 
 
 @pytest.mark.long_walk
-def test_what_was_built_is_repaired_exported_and_reused(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_what_was_built_is_repaired_exported_and_reused(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     fault_is_found_and_fixed(studio)
     package_is_exported(studio)

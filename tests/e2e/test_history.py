@@ -25,11 +25,11 @@ def expect_xml(studio: Studio, state: str) -> None:
     expect(studio.at("xml-state")).to_have_attribute("data-state", state)
 
 
-def test_what_was_comes_back(shared_studio: Studio) -> None:
-    text_and_canvas_stay_in_step_and_every_state_comes_back(shared_studio)
-    a_file_goes_back_by_the_explorers_menu(shared_studio)
-    a_problem_is_fixed_by_keys(shared_studio)
-    a_page_waits_for_its_style(shared_studio)
+def test_what_was_comes_back(studio: Studio) -> None:
+    text_and_canvas_stay_in_step_and_every_state_comes_back(studio)
+    a_file_goes_back_by_the_explorers_menu(studio)
+    a_problem_is_fixed_by_keys(studio)
+    a_page_waits_for_its_style(studio)
 
 
 def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> None:

@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
-def test_the_last_tick_stays(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_the_last_tick_stays(studio: Studio) -> None:
     a_tree_that_waits_and_fails(studio)
     studio.at("run").click()
     the_end_names_the_block_that_failed(studio)

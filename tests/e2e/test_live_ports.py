@@ -36,7 +36,8 @@ class Forward(py_trees.behaviour.Behaviour):
 """
 
 
-def test_ports_are_changed_while_the_program_runs(studio: Studio) -> None:
+def test_ports_are_changed_while_the_program_runs(studio_without_views: Studio) -> None:
+    studio = studio_without_views
     studio.new_from("laser_bump_and_go")
     an_action_tells_its_port(studio)
     the_program_takes_what_is_typed_with_enter(studio)
@@ -84,8 +85,10 @@ def the_program_takes_what_is_typed_with_enter(studio: Studio) -> None:
     studio.page.keyboard.press("Enter")
     told(studio, "speed 0.75")
     expect(studio.at("console").get_by_text("speed 0.7", exact=True)).to_have_count(0)
-    expect(live(studio)).to_contain_text("Changed while the program runs. Saved: 0.3")
-    expect(marks(studio)).to_have_attribute("title", "0.75 – changed while the program runs; saved: 0.3")
+    expect(live(studio)).to_contain_text("Changed since the program was started. Before: 0.3")
+    expect(marks(studio)).to_have_attribute(
+        "title", "0.75 – changed since the program was started; before: 0.3"
+    )
     expect(studio.at("banner")).to_have_count(0)
     studio.picture("live-port")
 
@@ -107,8 +110,8 @@ def a_value_is_kept_or_goes_back(studio: Studio) -> None:
     expect(field(studio)).to_be_focused()
     studio.page.keyboard.press("ArrowUp")
     told(studio, "speed 0.76")
-    expect(live(studio)).to_contain_text("Saved: 0.75")
-    live(studio).get_by_role("button", name="Back to the saved value").click()
+    expect(live(studio)).to_contain_text("Before: 0.75")
+    live(studio).get_by_role("button", name="Back to the value before").click()
     expect(field(studio)).to_have_value("0.75")
     expect(live(studio)).to_have_count(0)
 
@@ -118,7 +121,7 @@ def a_wrong_value_is_not_taken(studio: Studio) -> None:
     field(studio).press("Enter")
     expect(live(studio)).to_contain_text("'fast' is not a number")
     expect(marks(studio)).to_have_attribute("data-live", "refused")
-    live(studio).get_by_role("button", name="Back to the saved value").click()
+    live(studio).get_by_role("button", name="Back to the value before").click()
     expect(field(studio)).to_have_value("0.75")
 
 

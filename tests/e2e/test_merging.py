@@ -43,8 +43,7 @@ def conflicting_files() -> dict[str, bytes]:
     return {f"merged/{path}": raw for path, raw in files.items()}
 
 
-def test_conflicts_are_decided_in_the_editor(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_conflicts_are_decided_in_the_editor(studio: Studio) -> None:
     studio.page.goto(studio.server.origin)
     drop(studio, "merged.zip", zipped(conflicting_files()))
     report(studio, "merged.zip")

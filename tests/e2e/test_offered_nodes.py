@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
 
 
-def test_a_node_of_nav2_comes_with_its_source(shared_server: Server, browser: Browser) -> None:
+def test_a_node_of_nav2_comes_with_its_source(server: Server, browser: Browser) -> None:
     context = browser.new_context(viewport={"width": 1440, "height": 900})
-    studio = Studio(context.new_page(), shared_server)
+    studio = Studio(context.new_page(), server)
     studio.open()
     studio.at("new-from-empty").click()
     palette = studio.at("palette")

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
-from tests.e2e.canvas_by_hand import block, children
+from tests.e2e.canvas_by_hand import block, children, rest
 from tests.e2e.server import wait_until
 from tests.e2e.studio import NOT_RUNNABLE
 
@@ -97,6 +97,7 @@ def children_are_given(studio: Studio) -> None:
     studio.picture("own-control-palette")
     for type_ in ("AlwaysSuccess", "AlwaysFailure"):
         search.fill(type_)
+        rest(block(studio, "Alternate"))  # the view may still move to the last one, or be tidied
         studio.at(f"palette-{type_}").drag_to(block(studio, "Alternate"))
         expect(block(studio, type_)).to_be_visible()
         studio.at("tidy").click()

@@ -14,9 +14,8 @@ DESCRIPTION = "Drives until something is near, then turns."
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
-def test_blocks_bring_what_they_use(shared_studio: Studio) -> None:
+def test_blocks_bring_what_they_use(studio: Studio) -> None:
     """A tree is described, offered and copied; another project takes it after a look, and gives it back."""
-    studio = shared_studio
     studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     studio.new_from("laser_bump_and_go")
     name = studio.page.title().removesuffix(" — BT Studio")

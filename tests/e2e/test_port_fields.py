@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
 
 
-def test_ports_are_typed_key_by_key(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_ports_are_typed_key_by_key(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     rest(block(studio, "Turn"))
     whole = children(studio)

@@ -21,8 +21,7 @@ pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
 @pytest.mark.long_walk
-def test_values_in_blocks_and_the_tree_alone(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_values_in_blocks_and_the_tree_alone(studio: Studio) -> None:
     a_tree_that_waits_for_a_key(studio)
     the_block_shows_the_value_of_its_key(studio)
     the_tree_is_presented(studio)

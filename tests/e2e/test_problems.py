@@ -120,8 +120,8 @@ def the_last_declaration_stays(studio: Studio) -> None:
     expect(studio.at("port-lin_speed")).to_be_visible()
 
 
-def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(shared_studio: Studio) -> None:
-    studio, page = shared_studio, shared_studio.page
+def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(studio: Studio) -> None:
+    page = studio.page
     studio.new_from("laser_bump_and_go")
     page.set_viewport_size({"width": 1440, "height": 640})
     problems = show_problems(studio)

@@ -143,6 +143,7 @@ def minute_6_it_waits_before_it_turns(studio: Studio) -> None:
     sleep = studio.at("palette-Sleep")
     expect(sleep).to_be_visible()
     # She drops it onto Turn, which cannot have a child: it goes beside it, into the fallback.
+    rest(block(studio, "Turn"))
     sleep.drag_to(block(studio, "Turn"))
     added = block(studio, "Sleep")
     expect(added).to_be_visible()

@@ -26,8 +26,7 @@ class Forward(py_trees.behaviour.Behaviour):
 WORKS = FAILS.replace('raise ValueError("no wheels")', "return py_trees.common.Status.RUNNING")
 
 
-def test_messages_have_a_place_of_their_own(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_messages_have_a_place_of_their_own(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.open_file("actions/Forward.py")
     studio.replace_code(FAILS)

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
-def test_a_word_is_found_and_replaced_everywhere(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_a_word_is_found_and_replaced_everywhere(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     hits_lead_to_block_and_line(studio)
     expressions_are_checked_and_stopped(studio)
@@ -86,9 +85,8 @@ def a_replacement_is_shown_made_and_taken_back(studio: Studio) -> None:
     studio.saved()
 
 
-def test_a_key_is_renamed_everywhere(shared_studio: Studio) -> None:
+def test_a_key_is_renamed_everywhere(studio: Studio) -> None:
     """A port's key, from the inspector: each place is shown, then changed, and taken back in one step."""
-    studio = shared_studio
     page = studio.page
     studio.new_from("laser_bump_and_go")
     for type_, port in (("Forward", "lin_speed"), ("Turn", "ang_speed")):

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import re
-import signal
-import subprocess
 from typing import TYPE_CHECKING
 
 import psutil
+import pytest
 from playwright.sync_api import expect
 
-from tests.e2e.server import DEADLINE_S, command, serving, wait_until
+from tests.e2e.server import DEADLINE_S, serving, wait_until
 from tests.e2e.studio import Studio
-from tests.executor.session_client import ROOT
 from tests.processes import with_word
 
 if TYPE_CHECKING:
@@ -22,6 +19,8 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
     from tests.e2e.server import Server
+
+pytestmark = pytest.mark.kills
 
 
 def manager_of(server: Server) -> psutil.Process:
@@ -55,19 +54,19 @@ def freeze(studio: Studio) -> None:
 
     first.suspend()
     expect(banner).to_have_attribute("data-kind", "silence")
-    expect(banner).to_contain_text(re.compile(r"The executor has not answered for \d+ s"))
+    expect(banner).to_contain_text(re.compile(r"The session has not answered for \d+ s"))
     expect(state).to_have_attribute("data-shown", "silent")
     first.resume()
     expect(banner).to_have_count(0)
     expect(state).to_have_attribute("data-shown", "application_running")
-    expect(studio.at("console")).to_contain_text("The executor answers again")
+    expect(studio.at("console")).to_contain_text("The session answers again")
 
     first.suspend()
     studio.at("pause").click()  # a request during the freeze is answered, too
     expect(banner).to_have_attribute("data-kind", "silence")
     studio.picture("silent")
     expect(banner).to_contain_text("The session has ended.")
-    expect(banner).to_contain_text("The executor stopped answering, so it was ended.")
+    expect(banner).to_contain_text("The session stopped answering, so it was ended.")
     _, alive = psutil.wait_procs(family, timeout=DEADLINE_S)
     assert alive == []
 
@@ -78,28 +77,3 @@ def freeze(studio: Studio) -> None:
     moved_from = studio.stat("t")
     wait_until(lambda: studio.stat("t") > moved_from, "time passes in the new world")
     studio.end_session()
-
-
-def test_the_page_of_a_run_says_that_the_run_does_not_answer(browser: Browser) -> None:
-    arguments = command("run", str(ROOT / "examples" / "laser_bump_and_go"), "--serve-viewer")
-    with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as run:
-        try:
-            assert run.stdout is not None
-            link = re.search(r"http://\S+", run.stdout.readline())
-            assert link is not None
-            page = browser.new_page()
-            page.goto(link[0])
-            expect(page.locator("#state")).to_have_text("RUNNING", timeout=DEADLINE_S * 1000)
-            expect(page.locator("#silence")).to_be_hidden()
-            os.kill(run.pid, signal.SIGSTOP)
-            expect(page.locator("#silence")).to_contain_text(
-                re.compile(r"has not answered for \d+ s"), timeout=DEADLINE_S * 1000
-            )
-            expect(page.locator("#silence")).to_be_visible()
-            os.kill(run.pid, signal.SIGCONT)
-            expect(page.locator("#silence")).to_be_hidden()
-            page.context.close()
-        finally:
-            os.kill(run.pid, signal.SIGCONT)
-            run.send_signal(signal.SIGINT)
-            run.communicate(timeout=DEADLINE_S)

@@ -26,7 +26,13 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser
 
-pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.long_walk, pytest.mark.timeout(900)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.simulation,
+    pytest.mark.long_walk,
+    pytest.mark.kills,
+    pytest.mark.timeout(900),
+]
 
 # As `docker/caddy/Caddyfile`, for two servers that are always named. Up to 2.11.1, Caddy answers 502 to a
 # request with a body if the first server that it tries is gone (caddyserver/caddy#7546): so it asks for their

@@ -36,9 +36,41 @@ def source_of(studio: Studio, path: str) -> str:
     )
 
 
-def test_a_syntax_error_is_shown_at_its_line_before_anything_runs(studio: Studio) -> None:
+def test_faults_are_shown_at_their_place_and_the_next_run_works(studio_without_views: Studio) -> None:
+    studio = studio_without_views
     studio.new_from("laser_bump_and_go")
     good = source_of(studio, FORWARD)
+    an_unclosed_brace_in_a_port_is_marked_and_stops_the_run(studio)
+    a_syntax_error_is_shown_at_its_line_before_anything_runs(studio, good)
+    an_action_that_raises_is_named_with_file_and_line(studio, good)
+    an_action_that_never_returns_is_detected_and_named(studio, good)
+    a_world_that_dies_is_reported_and_the_next_run_works(studio)
+
+
+def it_runs_again(studio: Studio) -> None:
+    studio.run()
+    expect(studio.at("banner")).to_have_count(0)
+
+
+def an_unclosed_brace_in_a_port_is_marked_and_stops_the_run(studio: Studio) -> None:
+    studio.set_port("n6", "lin_speed", "{speed")
+    expect(studio.at("node-n6")).to_have_attribute("data-problem", "error")
+    studio.open_file(FORWARD)
+    studio.at("run").click()
+    expect(studio.at("problems")).to_contain_text("{speed")
+    assert not studio.server.children(), "nothing was started"
+    # The run leads from the file to the block, and into the field of its port.
+    expect(studio.at("node-n6")).to_have_attribute("data-selected", "true")
+    expect(studio.at("port-lin_speed")).to_be_focused()
+    expect(studio.at("node-n6")).to_be_in_viewport()
+    expect(studio.page.get_by_text("NaN")).to_have_count(0)
+    expect(studio.at("banner")).to_contain_text("has a brace without its partner")
+    studio.picture("refused-run-light")
+    studio.set_port("n6", "lin_speed", "0.3")
+    expect(studio.at("node-n6")).not_to_have_attribute("data-problem", "error")
+
+
+def a_syntax_error_is_shown_at_its_line_before_anything_runs(studio: Studio, good: str) -> None:
     studio.open_file(FORWARD)
     studio.replace_code(good.replace("twist = Twist()", "twist = = Twist()"))
     line = good.splitlines().index("        twist = Twist()") + 1
@@ -47,15 +79,13 @@ def test_a_syntax_error_is_shown_at_its_line_before_anything_runs(studio: Studio
     assert not studio.server.children(), "nothing was started"
 
     studio.replace_code(good)
-    studio.run()
+    it_runs_again(studio)
 
 
-def test_an_action_that_raises_is_named_with_file_and_line(studio: Studio) -> None:
-    studio.new_from("laser_bump_and_go")
-    good = source_of(studio, FORWARD)
-    studio.open_file(FORWARD)
+def an_action_that_raises_is_named_with_file_and_line(studio: Studio, good: str) -> None:
     bad = good.replace("        self.publisher.publish(twist)", "        self.publisher.publish(twst)")
     line = bad.splitlines().index("        self.publisher.publish(twst)") + 1
+    studio.open_file(FORWARD)
     studio.replace_code(bad)
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text("twst")
@@ -68,22 +98,32 @@ def test_an_action_that_raises_is_named_with_file_and_line(studio: Studio) -> No
 
     studio.open_file(FORWARD)
     studio.replace_code(good)
-    studio.run()
+    it_runs_again(studio)
 
 
-def test_an_action_that_never_returns_is_detected_and_named(studio: Studio) -> None:
-    studio.new_from("laser_bump_and_go")
-    good = source_of(studio, FORWARD)
-    studio.open_file(FORWARD)
+def an_action_that_never_returns_is_detected_and_named(studio: Studio, good: str) -> None:
     bad = good.replace("        twist = Twist()", "        while True: pass\n        twist = Twist()")
+    studio.open_file(FORWARD)
     studio.replace_code(bad)
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text("Forward")
     studio.at("stop").click()
     studio.expect_state("visualization_ready")
 
+    studio.open_file(FORWARD)
     studio.replace_code(good)
-    studio.run()
+    it_runs_again(studio)
+
+
+def a_world_that_dies_is_reported_and_the_next_run_works(studio: Studio) -> None:
+    world = with_word("executor.world", studio.server.children())[0]
+    psutil.Process(world.pid).kill()
+    expect(studio.at("banner")).to_contain_text(re.compile("world", re.IGNORECASE))
+    studio.expect_state("connected")
+    it_runs_again(studio)
+    observer = studio.observe()
+    wait_until(lambda: observer.distance_travelled("robot") > 0.1, "the robot moves again")
+    observer.close()
 
 
 def test_a_leaf_without_its_action_is_marked_on_the_block(studio: Studio) -> None:
@@ -104,29 +144,6 @@ def test_a_leaf_without_its_action_is_marked_on_the_block(studio: Studio) -> Non
     studio.at("run").click()
     expect(studio.at("problems")).to_contain_text("Forward")
     studio.picture("problem")
-
-
-def test_an_unclosed_brace_in_a_port_is_marked_and_stops_the_run(studio: Studio) -> None:
-    studio.new_from("laser_bump_and_go")
-    studio.set_port("n6", "lin_speed", "{speed")
-    expect(studio.at("node-n6")).to_have_attribute("data-problem", "error")
-    studio.at("run").click()
-    expect(studio.at("problems")).to_contain_text("{speed")
-    studio.set_port("n6", "lin_speed", "0.3")
-    studio.run()
-
-
-def test_a_world_that_dies_is_reported_and_the_next_run_works(studio: Studio) -> None:
-    studio.new_from("laser_bump_and_go")
-    studio.run()
-    world = with_word("executor.world", studio.server.children())[0]
-    psutil.Process(world.pid).kill()
-    expect(studio.at("banner")).to_contain_text(re.compile("world", re.IGNORECASE))
-    studio.expect_state("connected")
-    studio.run()
-    observer = studio.observe()
-    wait_until(lambda: observer.distance_travelled("robot") > 0.1, "the robot moves again")
-    observer.close()
 
 
 def test_a_port_in_use_is_said_in_one_sentence(tmp_path: Path) -> None:

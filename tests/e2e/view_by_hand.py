@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from playwright.sync_api import expect
 
-from tests.e2e.server import wait_until
+from tests.e2e.server import RARELY_S, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -65,7 +65,7 @@ def changes(studio: Studio, gesture: Callable[[], None], what: str) -> None:
     """Makes a gesture and waits until the drawing changes."""
     before = drawn(studio)
     gesture()
-    wait_until(lambda: drawn(studio) != before, what)
+    wait_until(lambda: drawn(studio) != before, what, every_s=RARELY_S)
 
 
 def at_rest(studio: Studio) -> bytes:
@@ -78,6 +78,26 @@ def at_rest(studio: Studio) -> bytes:
         return found[-1] == found[-2]
 
     wait_until(stays, "the view is at rest")
+    return found[-1]
+
+
+def default_view(studio: Studio, leave: Callable[[], None]) -> bytes:
+    """Returns the drawing of the default view; `leave` moves the pointer away from the buttons.
+
+    The worker frames a view by the area that it knows, and learns of a larger one some time after the page.
+    So the view is requested until two drawings in a row are equal: no time says when it has learned.
+    """
+    found = [b""]
+
+    def is_settled() -> bool:
+        # A worker draws some time after a click: a view is known to be drawn when another one was before.
+        changes(studio, tool(studio, "Top view").click, "the view from above")
+        changes(studio, tool(studio, "Default view").click, "the default view")
+        leave()
+        found.append(at_rest(studio))
+        return found[-1] == found[-2]
+
+    wait_until(is_settled, "the default view is settled")
     return found[-1]
 
 
@@ -102,17 +122,12 @@ def the_view_is_turned(studio: Studio) -> None:
         "the view comes nearer": scroll,
     }
     expect(studio.at("viewer-3d").get_by_text("Loading 3D")).to_have_count(0, timeout=180_000)
-    at_rest(studio)  # the worker learns of the larger area some time after the page, and frames views by it
-    # A worker draws some time after a click: a view is known to be drawn when another one was before.
-    changes(studio, tool(studio, "Top view").click, "the view from above")
-    changes(studio, tool(studio, "Default view").click, "the default view")
-    mouse.move(x, y)
-    home = at_rest(studio)
+    home = default_view(studio, lambda: mouse.move(x, y))
     for what, gesture in gestures.items():
         changes(studio, gesture, what)
         tool(studio, "Default view").click()
         mouse.move(x, y)
-        wait_until(lambda: drawn(studio) == home, f"after {what}: the default view")
+        wait_until(lambda: drawn(studio) == home, f"after {what}: the default view", every_s=RARELY_S)
 
 
 def layers_come_and_go(studio: Studio) -> None:
@@ -128,7 +143,8 @@ def layers_come_and_go(studio: Studio) -> None:
         expect(item).not_to_have_attribute("aria-checked", was)
         item.click()
         expect(item).to_have_attribute("aria-checked", was)
-        wait_until(lambda: drawn(studio) == before, f"{layer}: as before")  # noqa: B023 - called at once
+        until = f"{layer}: as before"
+        wait_until(lambda: drawn(studio) == before, until, every_s=RARELY_S)  # noqa: B023 - called at once
     camera = studio.page.get_by_role("menuitemcheckbox", name="Robot's camera", exact=True)
     camera.click()
     expect(studio.at("camera-inset")).to_be_visible()
@@ -200,7 +216,7 @@ def the_robot_is_driven_by_hand(studio: Studio) -> None:
     follow.click()
     expect(follow).to_have_attribute("aria-pressed", "true")
     drive(studio)
-    wait_until(lambda: page.screenshot(clip=corner) != before, "the view follows")
+    wait_until(lambda: page.screenshot(clip=corner) != before, "the view follows", every_s=RARELY_S)
     follow.click()
     turn = pad.get_by_role("button", name="Turn left")
     turn.hover()

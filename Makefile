@@ -1,12 +1,11 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test lint-python lint-frontend test-frontend test-python generate
+.PHONY: audit docs lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test lint-python lint-frontend generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
 SETUP_PYTHON := $(or $(PYTHON),$(shell command -v python3))
 BIN := .venv/bin
-PYTEST_ARGS =
 # Hashes and no index address: a lock names no registry.
 LOCK := --quiet --upgrade --generate-hashes --no-header --no-annotate --python-version 3.11 --python-platform x86_64-manylinux_2_28
 
@@ -24,26 +23,21 @@ setup-test:
 run: setup ## sets up what is missing, then serves the IDE on http://127.0.0.1:8000 and opens the browser
 	@$(BIN)/bt-studio serve $(ARGS)
 
-test: setup-test lint test-frontend test-python ## sets up what is missing, then runs the whole test suite, browser tests included
+test: setup-test ## sets up what is missing, then runs the tests that a change can break, the core and a sample
+	@$(BIN)/python -m tests.tools.suite
 
-test-full: export BT_STUDIO_FULL = 1
-test-full: PYTEST_ARGS = --timeout 0
-test-full: setup-test lint test-frontend test-python mutants ## the same with the large counts of tests/budget.toml (hours)
+test-full: setup-test ## all tests with the large counts of tests/budget.toml; SHARD=3/8 for a part, COUNTS=test for small counts
+	@$(BIN)/python -m tests.tools.suite --full
 
 test-docker: export BT_STUDIO_FULL = 1
 test-docker: setup-test ## builds the images and tries the server for a team in real containers (needs root)
 	@$(BIN)/python -m pytest --timeout 0 tests/docker
 
-test-frontend:
-	@cd frontend && npm run --silent size && npm run --silent test
+mutants: ## changes 150 random lines of the page and 150 of Python; at least 60 % must make a test fail (hours)
+	@$(BIN)/python -m tests.tools.mutating.page
+	@$(BIN)/python -m tests.tools.mutating.python
 
-mutants: ## changes 60 random lines of the page's features; at least 60 % must make a test fail (half an hour)
-	@$(BIN)/python -m tests.tools.mutate
-
-test-python:
-	@$(BIN)/python -m tests.tools.lanes --durations 25 --durations-min 3 $(PYTEST_ARGS)
-
-lint: ## style, types, the direction of imports and the list of words, in Python and TypeScript
+lint: ## style, types, the direction of imports, the list of words and the documents, in Python and TypeScript
 	@$(MAKE) --no-print-directory --jobs 2 --output-sync=target lint-python lint-frontend
 
 lint-python:
@@ -51,13 +45,23 @@ lint-python:
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m tests.tools.words && $(BIN)/python -m tests.tools.mirror
-	@$(BIN)/python -m tests.tools.sleeps && $(BIN)/python -m tests.tools.seams
+	@$(BIN)/python -m tests.tools.sleeps && $(BIN)/python -m tests.tools.seams && $(BIN)/python -m tests.tools.pages
 
 lint-frontend:
 	@cd frontend && npm run --silent lint
 
 format: ## rewrites the sources in the project's style
 	@$(BIN)/ruff check --fix . ; $(BIN)/ruff format . ; cd frontend && npm run --silent format
+
+docs: var/docs/installed ## builds the documentation site from docs/, to var/site
+	@var/docs/env/bin/zensical build --clean --strict
+	@echo "Open var/site/index.html"
+
+var/docs/installed: requirements-docs.lock
+	@test -n "$(PYTHON)" || { echo "make docs: Python is missing; install CPython 3.11 so that \`python3.11\` is found." >&2; exit 1; }
+	@$(PYTHON) -m venv --clear var/docs/env
+	@var/docs/env/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
+	@touch $@
 
 bench: setup-test ## the benchmarks, side by side with their rivals
 	@$(BIN)/python -m tests.benchmarks
@@ -68,6 +72,7 @@ generate: setup-test ## writes the generated sources and reference pages again
 lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
 	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
 	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock
+	@$(BIN)/uv pip compile --group docs -c requirements-dev.lock $(LOCK) -o requirements-docs.lock
 	@$(BIN)/uv pip compile docker/evaluation.in -c requirements.lock -c requirements-dev.lock $(LOCK) -o docker/evaluation.lock
 
 lock-images: ## asks the registry for the digests of the base images (needs Docker and a registry)
@@ -80,4 +85,4 @@ sbom: setup-test ## writes what the program is made of as CycloneDX, to var/sbom
 	@$(BIN)/python -m tests.tools.sbom var/sbom
 
 clean: ## removes everything that set-up and runs made, but for your projects in var/data
-	rm -rf .venv frontend/node_modules frontend/dist var/setup .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf .venv frontend/node_modules frontend/dist var/setup var/docs var/site .mypy_cache .ruff_cache .pytest_cache .hypothesis

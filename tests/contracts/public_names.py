@@ -9,6 +9,8 @@ those that are gone, which breaks files or programs of users on purpose.
 from __future__ import annotations
 
 import ast
+import functools
+import gc
 import importlib
 import io
 import json
@@ -33,8 +35,8 @@ OTHERS_PAGES: Final = {"/accounts/", "/admin/"}
 
 GONE: Final = (
     "These names are used outside of the repository: by files, browsers, scripts, images or databases. "
-    "Restore them. To drop one on purpose: `python -m tests.contracts.public_names --forget`, and a line in "
-    "CHANGELOG.md that says what users do instead."
+    "Restore them. To drop one on purpose: `python -m tests.contracts.public_names --forget`, and a row in "
+    "docs/reference/changed-names.md that says what users do instead."
 )
 NEW: Final = "New public names are fine; store them: `python -m tests.contracts.public_names`."
 
@@ -76,7 +78,12 @@ def collect() -> Names:
 def modules(*folders: str) -> Iterator[tuple[Path, ast.Module]]:
     for folder in folders:
         for path in sorted((ROOT / folder).rglob("*.py")):
-            yield path, ast.parse(path.read_text(encoding="utf-8"))
+            yield path, _parsed(path)
+
+
+@functools.cache
+def _parsed(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 def strings(tree: ast.AST) -> Iterator[str]:
@@ -426,6 +433,7 @@ def read() -> Names:
 
 def main(arguments: list[str]) -> int:
     """Compares, prints or writes the list. Returns 1 if names have disappeared that must not."""
+    gc.disable()  # a short process that keeps every syntax tree
     found = collect()
     if "--print" in arguments:
         print(json.dumps(found))

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 
 REPOSITORY = Path(__file__).parents[2]
 UV = Path(sys.executable).with_name("uv")
-PYTHON_LOCK, NPM_FOLDER = REPOSITORY / "requirements-dev.lock", REPOSITORY / "frontend"
+PYTHON_LOCKS = ("requirements-dev.lock", "requirements-docs.lock")
+NPM_FOLDER = REPOSITORY / "frontend"
 AUDITOR = "pip-audit>=2.9,<3"
 
 
@@ -99,8 +100,7 @@ def main() -> int:
             "--from",
             AUDITOR,
             "pip-audit",
-            "--requirement",
-            PYTHON_LOCK,
+            *(f"--requirement={REPOSITORY / lock}" for lock in PYTHON_LOCKS),
             "--disable-pip",
         ]
         pip += ["--format", "json", "--progress-spinner", "off", "--cache-dir", cache]

@@ -74,8 +74,6 @@ class Generator:
             steps.append({"op": "set", "key": key, "type": "int", "value": rng.randint(0, 4)})
         return steps
 
-    # -- nodes --------------------------------------------------------------------------------------
-
     def node(self, depth: int) -> str:
         kind = self.rng.random()
         if depth <= 0 or kind < 0.3:
@@ -159,8 +157,6 @@ class Generator:
     def fresh(self, prefix: str) -> str:
         self.count += 1
         return f"{prefix}{self.count}"
-
-    # -- scripts ------------------------------------------------------------------------------------
 
     def guards(self) -> dict[str, str]:
         rng = self.rng

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-import ast
+import functools
 import json
 import re
 import tomllib
 from importlib import metadata
+from itertools import chain
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+from tests.tools.sources import imports_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 PRODUCT: Final = ("backend", "executor", "translator", "tree_gardener")
@@ -31,7 +37,6 @@ USED_BY: Final[dict[str, tuple[str, str]]] = {
     "lxml-stubs": ("executor/robots/urdf.py", "lxml"),
     "moto": ("tests/backend/bucket.py", "moto.server"),
     "mypy": ("Makefile", "$(BIN)/mypy"),
-    "pycollada": ("docs/how-to/make-a-robot.md", "DAE"),
     "ty": ("backend/language/servers.py", 'with_name("ty")'),
     "pytest-asyncio": ("pyproject.toml", "asyncio_mode"),
     "pytest-django": ("pyproject.toml", "DJANGO_SETTINGS_MODULE"),
@@ -42,13 +47,14 @@ USED_BY: Final[dict[str, tuple[str, str]]] = {
     "ruff": ("Makefile", "$(BIN)/ruff"),
     "types-psutil": ("executor/supervision/processes.py", "import psutil"),
     "types-pyyaml": ("executor/universes/document.py", "yaml"),
+    "zensical": ("Makefile", "bin/zensical build"),
 }
 
 
 def declared() -> list[str]:
     """Returns the normalised names of all declared packages."""
     table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    return _names([*table["project"]["dependencies"], *table["dependency-groups"]["dev"]])
+    return _names([*table["project"]["dependencies"], *chain(*table["dependency-groups"].values())])
 
 
 def shipped() -> list[str]:
@@ -78,19 +84,14 @@ def imported(folders: tuple[str, ...] = SOURCES) -> set[str]:
     for folder in folders:
         for path in (ROOT / folder).rglob("*.py"):
             if "node_modules" not in path.parts:
-                modules |= _modules_of(ast.parse(path.read_text(encoding="utf-8")))
-    providers = metadata.packages_distributions()
-    return {normal(package) for module in modules for package in providers.get(module, [])}
+                imports = imports_of(path.read_text(encoding="utf-8"))
+                modules |= {each.module.partition(".")[0] for each in imports}
+    return {normal(package) for module in modules for package in _providers().get(module, [])}
 
 
-def _modules_of(tree: ast.Module) -> set[str]:
-    found = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            found |= {alias.name.partition(".")[0] for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-            found.add(node.module.partition(".")[0])
-    return found
+@functools.cache
+def _providers() -> Mapping[str, list[str]]:
+    return metadata.packages_distributions()
 
 
 def used_elsewhere(name: str) -> bool:

@@ -21,6 +21,7 @@ GENERATORS: Final = (
     [sys.executable, "-m", "executor.robots.reference"],
     [sys.executable, "-m", "executor.evaluation.reference.schema"],
     [sys.executable, "-m", "executor.evaluation.reference.page"],
+    [sys.executable, "-m", "executor.generate.topics_table"],
     [sys.executable, "-m", "executor.generate.textures"],
     [sys.executable, "-m", "executor.generate.typescript"],
     [sys.executable, "-m", "backend.config.reference"],

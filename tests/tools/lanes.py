@@ -1,119 +1,84 @@
-"""`make test-python`: two runs of pytest beside each other, since tests of browsers and robots mostly wait.
+"""A lane of the suite: a command whose lines are shown as they come, with the lane's name.
 
-Every line is shown as it comes, with the name of its lane; failures and their errors are listed again at the
-end. The two lanes share the machine, so a test that waits for other processes can run out of time that it has
-alone: a few tests that failed are run again after the lanes. One that fails again has failed; one that passes
-stays listed as unsteady. Arguments go to each run of pytest.
+The lines that name failures, and the beginnings of their errors, are kept for the end.
 """
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
-import sys
 import threading
-import time
-from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-ROOT: Final = Path(__file__).resolve().parents[2]
-# The browser's tests take less time than the others: these folders run before them.
-WITH_THE_BROWSER: Final = [
-    "tests/translator",
-    "tests/tree_gardener",
-    "tests/contracts",
-    "tests/tools",
-    "tests/executor/exact",
-    "tests/executor/recorder",
-    "tests/executor/ros",
-    "tests/executor/session",
-    "tests/executor/world",
-]
-# The arguments of each lane for pytest.
-LANES: Final = {
-    "browser": ["tests/e2e", *WITH_THE_BROWSER],
-    "others": ["tests", *(f"--ignore={folder}" for folder in ("tests/e2e", *WITH_THE_BROWSER))],
-}
+if TYPE_CHECKING:
+    from pathlib import Path
+
 # Results of pytest; all others mean that its run did not come to its end.
 PASSED: Final = 0
 TESTS_FAILED: Final = 1
 NOT_COMPLETE: Final = 2
-# More failed tests than these have another cause than a busy machine.
-AGAIN_AT_MOST: Final = 3
-# The lines of an error that are shown again at the end.
+# The lines of an error that are shown again at the end, and of a command without failures that failed.
 ERROR_LINES: Final = 6
-_FAILURE: Final = re.compile(r"(?P<how>FAILED|ERROR) (?P<test>tests/[^\s\[]+(?:\[.*?\](?= - |\s*$))?)")
+LAST_LINES: Final = 30
+_FAILURE: Final = re.compile(r"(?:FAILED|ERROR) (?:tests/|src/)")
+_PAGE_FAILURE: Final = re.compile(r"\s*FAIL\s+")
 _TITLE: Final = re.compile(r"_{3,} .+ _{3,}$")
-
-
-def main(arguments: list[str]) -> int:
-    """Runs the lanes to their ends, then a few failed tests alone; returns 0 if all passed."""
-    began_s = time.monotonic()
-    lanes = [Lane(name, pytest(*run, *arguments)) for name, run in LANES.items()]
-    try:
-        for lane in lanes:
-            lane.start()
-        for lane in lanes:
-            lane.join()
-    except KeyboardInterrupt:  # the lanes' runs were interrupted too, and print their summaries
-        for lane in lanes:
-            lane.join()
-        return 130
-    is_complete = all(lane.result in (PASSED, TESTS_FAILED) for lane in lanes)
-    tests = to_repeat([line for lane in lanes for line in lane.failures]) if is_complete else []
-    again = [Lane("again", pytest(*tests, *arguments))] if tests else []
-    for lane in again:
-        lane.run()
-    report = [*lanes, *again]
-    for lane in report:
-        print("".join(f"{lane.name:7} | {line}" for line in lane.summary), end="")
-    if again and again[0].result == PASSED:
-        print(f"UNSTEADY, passed when run alone: {' '.join(tests)}")
-    print(", ".join(map(str, report)), f"in {(time.monotonic() - began_s) / 60:.1f} min")
-    return max(lane.result for lane in again or lanes)
-
-
-def pytest(*arguments: str) -> list[str]:
-    """Returns the command of a run of pytest."""
-    return [sys.executable, "-m", "pytest", *arguments]
-
-
-def to_repeat(failures: list[str]) -> list[str]:
-    """Returns the tests that are run again: all that failed, if they are few and each ran."""
-    found = [match for line in failures if (match := _FAILURE.match(line))]
-    ran = [match["test"] for match in found if match["how"] == "FAILED"]
-    return ran if len(ran) == len(found) <= AGAIN_AT_MOST else []
+_COLOURS: Final = re.compile(r"\x1b\[[0-9;]*m")
 
 
 class Lane(threading.Thread):
-    """A run of pytest, whose lines are shown with the name of the lane."""
+    """A command of the suite."""
 
-    def __init__(self, name: str, command: list[str]) -> None:
+    def __init__(
+        self, name: str, command: list[str], folder: Path, environment: dict[str, str] | None = None
+    ) -> None:
         super().__init__(name=name)
         self.result = PASSED
+        self.processor_s = 0.0
+        """The processor time of the command with its children, in seconds."""
         self.failures: list[str] = []
         self._errors: list[list[str]] = []
+        self._last: list[str] = []
         self._command = command
+        self._folder = folder
+        self._environment = environment or {}
 
     @property
     def summary(self) -> list[str]:
         """The failures, and under them the beginnings of their errors."""
-        return [*self.failures, *(line for error in self._errors for line in error[:ERROR_LINES])]
+        if self.result == PASSED:
+            return []
+        found = [*self.failures, *(line for error in self._errors for line in error[:ERROR_LINES])]
+        return found or self._last
 
     def run(self) -> None:
+        """Runs the command to its end."""
         with subprocess.Popen(
-            self._command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            self._command,
+            cwd=self._folder,
+            env=os.environ | self._environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
         ) as process:
             for line in process.stdout or ():
-                print(f"{self.name:7} | {line}", end="", flush=True)
+                print(f"{self.name:7}| {line}", end="", flush=True)
                 self.read(line)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        self.processor_s = usage.ru_utime + usage.ru_stime
         self.result = abs(process.returncode)
-        if self.result == TESTS_FAILED and not self.failures:  # it ended before its summary
-            self.result = NOT_COMPLETE
+        if self.result == TESTS_FAILED and not self.failures and "pytest" in self._command:
+            self.result = NOT_COMPLETE  # it ended before its summary
 
     def read(self, line: str) -> None:
-        """Keeps a line of pytest's output if it names a failure or says what failed."""
-        if _FAILURE.match(line):
+        """Keeps a line if it names a failure or says what failed."""
+        line = _COLOURS.sub("", line)
+        self._last = [*self._last[1 - LAST_LINES :], line]
+        if _FAILURE.match(line) or _PAGE_FAILURE.match(line):
             self.failures.append(line)
         elif _TITLE.match(line.rstrip()):
             self._errors.append([])
@@ -121,8 +86,5 @@ class Lane(threading.Thread):
             self._errors[-1].append(line)
 
     def __str__(self) -> str:
-        return f"{self.name} {'passed' if self.result == PASSED else f'FAILED ({self.result})'}"
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+        result = "passed" if self.result == PASSED else f"FAILED ({self.result})"
+        return f"{self.name} {result} ({self.processor_s / 60:.1f})"

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Final
 
 from tests.tools import shrinking
+from tests.tools.sources import Import, imports_of
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 LIST: Final = Path(__file__).with_name("unmirrored.txt")
@@ -104,25 +105,19 @@ def _imports_script(test: Path, stem: str) -> bool:
 
 def _imports_python(test: Path, module: Path) -> bool:
     text = test.read_text(encoding="utf-8")
-    tree = ast.parse(text)
     name = ".".join(module.relative_to(ROOT).with_suffix("").parts).removeprefix(ON_PATH)
-    return bool(ASSERTS.search(text)) and any(_brings(node, name, module) for node in ast.walk(tree))
+    return bool(ASSERTS.search(text)) and any(_brings(each, name, module) for each in imports_of(text))
 
 
-def _brings(node: ast.AST, module: str, file: Path) -> bool:
-    """Returns whether a statement imports a module, or something of it, directly or through a package."""
-    if isinstance(node, ast.Import):
-        return any(alias.name == module for alias in node.names)
-    if isinstance(node, ast.ImportFrom) and node.module:
-        package, _, stem = module.rpartition(".")
-        names = {alias.name for alias in node.names}
-        is_above = module.startswith(f"{node.module}.")
-        return (
-            node.module == module
-            or (node.module == package and stem in names)
-            or (is_above and bool(names & _defined(file)))
-        )
-    return False
+def _brings(found: Import, module: str, file: Path) -> bool:
+    """Returns whether an import is that of a module, or of something of it, directly or through a package."""
+    if found.names is None or found.module == module:
+        return found.module == module
+    package, _, stem = module.rpartition(".")
+    is_above = module.startswith(f"{found.module}.")
+    return (found.module == package and stem in found.names) or (
+        is_above and bool(found.names & _defined(file))
+    )
 
 
 def _defined(file: Path) -> set[str]:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 LEFT_OUT: Final = ROOT / "tests" / "benchmarks"
+NAMES: Final = ("sleep", "wait_for_timeout")
 MODULES: Final = {"time", "asyncio"}
 CLOCKS: Final = {"monotonic", "perf_counter", "time"}
 # A suppressed rule of the linter is no reason.
@@ -41,6 +42,8 @@ class Sleep(NamedTuple):
 
 def find(source: str) -> list[Sleep]:
     """Returns the sleeps of a file that wait for no condition, with their reasons."""
+    if not any(name in source for name in NAMES):
+        return []
     comments = _comments(source)
     return [
         Sleep(call.lineno, _reason(call, comments))
@@ -61,8 +64,8 @@ def _calls(node: ast.AST, outer: list[ast.AST]) -> Iterator[tuple[ast.Call, list
 def _is_sleep(called: ast.expr) -> bool:
     if isinstance(called, ast.Attribute):
         is_module = isinstance(called.value, ast.Name) and called.value.id in MODULES
-        return called.attr == "wait_for_timeout" or (called.attr == "sleep" and is_module)
-    return isinstance(called, ast.Name) and called.id == "sleep"
+        return called.attr == NAMES[1] or (called.attr == NAMES[0] and is_module)
+    return isinstance(called, ast.Name) and called.id == NAMES[0]
 
 
 def _is_zero(call: ast.Call) -> bool:

@@ -25,8 +25,6 @@ TOPS: Final = (
 OF_USERS: Final = re.compile(
     r"\.launch\.py$|^(?:actions|launch|evaluations|assets)/|^(?:judge|execute_docker)\.py$"
 )
-# The table of moved modules names the old ones.
-MOVED: Final = "## Moved modules"
 
 
 def tracked() -> set[str]:
@@ -51,7 +49,7 @@ def test_the_pages_name_modules_that_exist():
     found = {
         str(page.relative_to(ROOT)): names
         for page in pages
-        if (names := missing(page.read_text(encoding="utf-8").partition(MOVED)[0], known))
+        if (names := missing(page.read_text(encoding="utf-8"), known))
     }
     assert found == {}
 

@@ -13,8 +13,13 @@ ROOTS: Final = ("backend", "docker", "executor", "translator", "tree_gardener", 
 LARGE: Final = {
     "tree_gardener": "import paths of the engine are public: exported packages and users' actions use them",
     "tree_gardener/nav2": "one module a node of Nav2; a project takes the source of one",
+    "translator/check": "one module a rule, and what several rules read",
     "translator": "import paths are public; each module is one form of a project or one step of translation",
     "tests/benchmarks": "one module a benchmark",
+    "executor/headless": "one module a part of a run in the terminal, and its tools",
+    "executor/supervision": "one module a rule for processes, which every room of the executor uses",
+    "tests/fakes": "one module a fake",
+    "tests/tools": "one module a tool of developers",
 }
 """The folders that may have more, each with its reason."""
 

@@ -12,15 +12,17 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
-PYTHON: Final = re.compile(r'^(__version__ = )"[^"]*"', re.MULTILINE)
+PYTHON: Final = re.compile(r'^(__version__ = ")[^"]*(")', re.MULTILINE)
 # The first versions of these files are the page's own; those of packages follow.
-NPM: Final = re.compile(r'^(  "version": )"[^"]*"', re.MULTILINE)
-NPM_ROOT: Final = re.compile(r'^(      "version": )"[^"]*"', re.MULTILINE)
+NPM: Final = re.compile(r'^(  "version": ")[^"]*(")', re.MULTILINE)
+NPM_ROOT: Final = re.compile(r'^(      "version": ")[^"]*(")', re.MULTILINE)
+SITE: Final = re.compile(r'^(site_name = "BT Studio )[^"]*(")', re.MULTILINE)
 COPIES: Final[dict[str, list[re.Pattern[str]]]] = {
     "backend/__init__.py": [PYTHON],
     "executor/__init__.py": [PYTHON],
     "frontend/package.json": [NPM],
     "frontend/package-lock.json": [NPM, NPM_ROOT],
+    "zensical.toml": [SITE],
 }
 
 
@@ -36,7 +38,7 @@ def copies() -> dict[Path, str]:
     for name, patterns in COPIES.items():
         text = (ROOT / name).read_text(encoding="utf-8")
         for pattern in patterns:
-            text, count = pattern.subn(rf'\g<1>"{version()}"', text, count=1)
+            text, count = pattern.subn(rf"\g<1>{version()}\g<2>", text, count=1)
             if count != 1:
                 raise LookupError(f"{name} has no version")
         found[ROOT / name] = text

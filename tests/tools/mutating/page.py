@@ -1,11 +1,11 @@
 """Changes random lines of the page's features, and counts how many changes vitest notices.
 
-    python -m tests.tools.mutate [--count 60] [--seed 1] [--least 0.6] [--folder src/features]
+    python -m tests.tools.mutating.page [--count 150] [--seed 1] [--least 0.6] [--folder src/features]
 
 Each line is changed in a copy of the front end, so that the working tree stays untouched. Vitest runs the
 tests that reach the changed module, and has 90 s: a mutant counts as killed if a test fails in that time. A
 run that ends by the limit proves nothing, and counts as survived. Exit status 1: fewer mutants than `--least`
-were killed; 2: the tests fail without any change. Part of `make test-full`.
+were killed; 2: the tests fail without any change. Part of `make mutants`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-ROOT: Final = Path(__file__).resolve().parents[2]
+ROOT: Final = Path(__file__).resolve().parents[3]
 LIMIT_S: Final = 90
 BASELINE_S: Final = 1200
 NO_TESTS: Final = "No test files found"
@@ -153,7 +153,7 @@ def _run_tests(frontend: Path, *paths: Path, limit_s: float = LIMIT_S) -> tuple[
 def main(arguments: list[str] | None = None) -> int:
     """The command line; prints each mutant and the share of the killed ones."""
     parser = argparse.ArgumentParser(description="Changes random lines of the page and runs its tests.")
-    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--count", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--least", type=float, default=0.6, help="share that must be killed")
     parser.add_argument("--folder", default="src/features")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.tools.mutate import chosen, mutants_of
+from tests.tools.mutating.page import chosen, mutants_of
 
 
 def changes(line: str) -> list[str]:

@@ -1,0 +1,1 @@
+"""Changes lines of the product and counts how many changes the tests see."""

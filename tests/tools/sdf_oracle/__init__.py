@@ -1,0 +1,1 @@
+"""Compares the poses that we read from SDF with those of libsdformat."""

@@ -14,6 +14,7 @@ import psutil
 
 from tests.benchmarks.engine import NODES, body, document, warm
 from tests.benchmarks.groot import HZ, SIZE
+from tests.benchmarks.timing import processor_s
 from tests.executor.session_client import SessionClient, manager_process
 from tests.tree_gardener.debugging.hooked import free_port
 from tree_gardener import Tree
@@ -62,9 +63,9 @@ async def _measure(port: int) -> dict[str, float]:
         await asyncio.sleep(WARM_S)  # the processes have begun, and the recording has
         session = psutil.Process(manager.pid)
         watched = {"manager": session} | {kind: _child(session, module) for kind, module in KINDS.items()}
-        before = {kind: _used_s(each) for kind, each in watched.items()}
+        before = {kind: processor_s(each) for kind, each in watched.items()}
         await asyncio.sleep(SECONDS)  # the time over which is measured
-        after = {kind: _used_s(each) for kind, each in watched.items()}
+        after = {kind: processor_s(each) for kind, each in watched.items()}
         ticks = len(client.named("tick"))
         assert ticks > HZ * SECONDS / 2, f"{ticks} statuses came"
         await client.close()
@@ -73,11 +74,6 @@ async def _measure(port: int) -> dict[str, float]:
 
 def _child(session: psutil.Process, module: str) -> psutil.Process:
     return next(child for child in session.children() if module in child.cmdline())
-
-
-def _used_s(process: psutil.Process) -> float:
-    times = process.cpu_times()
-    return float(times.user + times.system)
 
 
 def _run(port: int, end: Event, is_still: bool) -> None:

@@ -23,7 +23,8 @@ from executor.headless.lockstep import LockstepOptions, run_lockstep
 from executor.recorder.cdr import encode_object
 from executor.recorder.writer import FORMAT_VERSION, RecordingWriter
 from executor.render.jpeg import to_jpeg
-from tests.benchmarks.browser import TEMPLATE, busy_tree, p95, page_of, served_browser
+from tests.benchmarks.browser import TEMPLATE, busy_tree, page_of, served_browser
+from tests.benchmarks.timing import p95
 from tests.benchmarks.trace import TASK, traced
 
 if TYPE_CHECKING:

@@ -6,9 +6,10 @@ GPU the processor does it, in other threads.
 
 from __future__ import annotations
 
+import argparse
 import json
-import math
 import statistics
+import sys
 import tempfile
 import time
 from contextlib import contextmanager
@@ -18,15 +19,17 @@ from typing import TYPE_CHECKING, Any
 from playwright.sync_api import sync_playwright
 
 from tests.benchmarks import hands
+from tests.benchmarks.figures import Figure, show
 from tests.benchmarks.renders import count_renders, rendered
 from tests.benchmarks.session import Client
+from tests.benchmarks.timing import p95
 from tests.benchmarks.trace import PAINT, TASK, WORK, traced
 from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
 from tests.e2e.server import serving
 from tests.e2e.studio import NO_FIRST_TASK, NO_LESSONS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from playwright.sync_api import Browser, CDPSession, Locator, Page
 
@@ -46,12 +49,20 @@ DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
 
 
-def main() -> None:
-    """Prints every figure."""
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields every figure; `--sizes 600` leaves the other sizes out."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--sizes", type=int, nargs="*", default=SIZES)
+    chosen = parser.parse_args(options)
     with served_browser() as (browser, client):
-        for size in SIZES:
-            handling(browser, client, size)
-        live(browser, client)
+        for size in chosen.sizes:
+            yield from handling(browser, client, size)
+        yield from live(browser, client)
+
+
+def main() -> None:
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
 @contextmanager
@@ -139,52 +150,38 @@ def open_project(page: Page, client: Client, project: str) -> Locator:
     return canvas
 
 
-def p95(values: list[float]) -> float:
-    """The value that 95 of 100 do not exceed."""
-    return sorted(values)[math.ceil(0.95 * len(values)) - 1]
-
-
-def handling(browser: Browser, client: Client, size: int) -> None:
+def handling(browser: Browser, client: Client, size: int) -> Iterable[Figure]:
     """Opens a tree, pans, drags, and uses the keyboard."""
     project = new_project(client, wide_tree(size))
     with page_of(browser, client) as page:
         cdp = page.context.new_cdp_session(page)
         with traced(cdp) as trace:
             canvas = open_project(page, client, project)
-        row(size, f"opening takes {trace.total_ms(TASKS):.0f} ms of the main thread")
-        frames(page, cdp, canvas, f"{size:5d} blocks, as opened")
+        yield Figure(f"{size} blocks: opening, main thread", trace.total_ms(TASKS), "ms")
+        yield from frames(page, cdp, canvas, f"{size} blocks, as opened")
         hands.read_at_full_size(page, canvas)
-        frames(page, cdp, canvas, f"{size:5d} blocks, at 100 %")
-        drops(page, cdp, canvas, size)
-        interactions(page, cdp, canvas, size)
+        yield from frames(page, cdp, canvas, f"{size} blocks, at 100 %")
+        yield from drops(page, cdp, canvas, size)
+        yield from interactions(page, cdp, canvas, size)
     with page_of(browser, client, counts=True) as page:
         canvas = open_project(page, client, project)
         for gesture in (hands.pan, hands.drag):
             blocks, frames_ = most_renders(page, canvas, gesture)
-            row(
-                size,
-                f"a {gesture.__name__} renders at most {blocks} blocks, {frames_} frames of blocks a step",
-            )
+            what = f"{size} blocks: a step of a {gesture.__name__} renders at most"
+            yield Figure(f"{what} blocks", blocks, "")
+            yield Figure(f"{what} frames of blocks", frames_, "")
 
 
-def row(size: int, text: str) -> None:
-    """One line of the figures."""
-    print(f"{size:5d} blocks: {text}", flush=True)
-
-
-def frames(page: Page, cdp: CDPSession, canvas: Locator, what: str) -> None:
+def frames(page: Page, cdp: CDPSession, canvas: Locator, what: str) -> Iterable[Figure]:
     """Measures script, style and layout for each step of a gesture."""
-    seen = canvas.locator(".react-flow__node").count()
+    yield Figure(f"{what}: seen", canvas.locator(".react-flow__node").count(), "")
     for gesture in (hands.pan, hands.drag):
         with traced(cdp) as trace:
             for _ in gesture(page, canvas, STEPS):
                 page.wait_for_timeout(STEP_MS)
         steps = trace.by_step_ms(trace.begins(MOVES))
-        print(
-            f"{what} ({seen} seen), {gesture.__name__:4s}: "
-            f"{statistics.median(steps):5.1f} ms a frame, p95 {p95(steps):5.1f} ms ({len(steps)} frames)",
-            flush=True,
-        )
+        yield Figure(f"{what}: a frame of a {gesture.__name__}, median", statistics.median(steps), "ms")
+        yield Figure(f"{what}: a frame of a {gesture.__name__}, p95", p95(steps), "ms")
 
 
 def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, int]:
@@ -198,7 +195,7 @@ def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, in
     return most
 
 
-def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
+def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> Iterable[Figure]:
     """Measures from the key or button to the next picture, and with all later work: draft, save, answer."""
     slowest: dict[str, tuple[float, float]] = {}
     keys = hands.use_keys(page, canvas)
@@ -209,11 +206,12 @@ def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> Non
             break
         figures = (trace.to_paint_ms(PRESSES), trace.total_ms(WORK | PAINT))
         slowest[name] = max(slowest.get(name, (0.0, 0.0)), figures)
-    told = (f"{name} {paint:.0f} ({total:.0f}) ms" for name, (paint, total) in slowest.items())
-    row(size, "to the paint (and all after): " + ", ".join(told))
+    for name, (paint, total) in slowest.items():
+        yield Figure(f"{size} blocks: {name}, to the paint", paint, "ms")
+        yield Figure(f"{size} blocks: {name}, with all after", total, "ms")
 
 
-def drops(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
+def drops(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> Iterable[Figure]:
     """From letting a block go to its picture at the new place: by the clock, and in main-thread work."""
     clock: list[float] = []
     work: list[float] = []
@@ -224,15 +222,13 @@ def drops(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
                 next(steps)
             clock.append(page.evaluate("window.dropped"))
             work.append(trace.to_paint_ms(DROPS))
-    row(
-        size,
-        f"from the drop to the painted block, median and worst of {len(clock)}: "
-        f"{statistics.median(clock):.0f}, {max(clock):.0f} ms by the clock, "
-        f"{statistics.median(work):.0f}, {max(work):.0f} ms of the main thread",
-    )
+    for how, times in (("by the clock", clock), ("main thread", work)):
+        what = f"{size} blocks: from the drop to the painted block, {how}"
+        yield Figure(f"{what}, median", statistics.median(times), "ms")
+        yield Figure(f"{what}, worst", max(times), "ms")
 
 
-def live(browser: Browser, client: Client) -> None:
+def live(browser: Browser, client: Client) -> Iterable[Figure]:
     """Runs 601 blocks at 20 Hz in the simulator, without the 3D view, and measures the canvas."""
     project = new_project(client, busy_tree(LIVE_BLOCKS // 5))
     for counts in (False, True):
@@ -244,10 +240,7 @@ def live(browser: Browser, client: Client) -> None:
             page.locator("[data-testid=executor-state][data-state=application_running]").wait_for()
             page.wait_for_timeout(3000)
             ticks.clear()
-            if counts:
-                count_live(page, ticks)
-            else:
-                weigh_live(page, ticks)
+            yield from (count_live if counts else weigh_live)(page, ticks)
             page.get_by_test_id("end-session").click()
             page.wait_for_timeout(2000)
 
@@ -264,25 +257,24 @@ def ticks_of(page: Page) -> list[dict[str, Any]]:
     return ticks
 
 
-def weigh_live(page: Page, ticks: list[dict[str, Any]]) -> None:
-    """Returns the main thread's share of a core."""
+def weigh_live(page: Page, ticks: list[dict[str, Any]]) -> Iterable[Figure]:
+    """The main thread's share of a core."""
     cdp = page.context.new_cdp_session(page)
     for what in ("as opened", "all in view"):
         if what == "all in view":
             see_all(page)
-        seen = page.locator(".react-flow__node").count()
+        yield Figure(f"live, {what}: seen", page.locator(".react-flow__node").count(), "")
         ticks.clear()
         started = time.monotonic()
         with traced(cdp) as trace:
             page.wait_for_timeout(1000 * LIVE_S)
             lasted = 1000 * (time.monotonic() - started)
         changes = statistics.mean(len(tick["changed"]) for tick in ticks)
-        print(
-            f"live at {1000 * len(ticks) / lasted:.1f} Hz, {changes:.0f} of {LIVE_BLOCKS} blocks change, "
-            f"{what} ({seen} seen): script, style, layout {100 * trace.total_ms() / lasted:.1f} % of a core, "
-            f"the whole main thread {100 * trace.total_ms(TASKS) / lasted:.1f} %",
-            flush=True,
-        )
+        figures = {"script, style, layout": trace.total_ms(), "the whole main thread": trace.total_ms(TASKS)}
+        yield Figure(f"live, {what}: ticks", 1000 * len(ticks) / lasted, "/s", "higher")
+        yield Figure(f"live, {what}: of {LIVE_BLOCKS} blocks change a tick", changes, "")
+        for name, ms in figures.items():
+            yield Figure(f"live, {what}: {name}, of a core", 100 * ms / lasted, "%")
 
 
 def see_all(page: Page) -> None:
@@ -293,17 +285,17 @@ def see_all(page: Page) -> None:
     page.wait_for_timeout(hands.SETTLED_MS)
 
 
-def count_live(page: Page, ticks: list[dict[str, Any]]) -> None:
+def count_live(page: Page, ticks: list[dict[str, Any]]) -> Iterable[Figure]:
     """Counts the rendered blocks, and the blocks that changed according to the session."""
     see_all(page)
-    seen = page.locator(".react-flow__node").count()
     rendered(page)
     ticks.clear()
     page.wait_for_timeout(1000 * LIVE_S)
     blocks, _ = rendered(page)
-    told = sum(len({uid for uid, _ in tick["changed"] + tick["flashed"]}) for tick in ticks)
-    print(
-        f"live: a tick tells of {told / len(ticks):.1f} of {LIVE_BLOCKS} blocks and renders "
-        f"{len(blocks) / len(ticks):.1f} of the {seen} seen",
-        flush=True,
-    )
+    named = sum(len({uid for uid, _ in tick["changed"] + tick["flashed"]}) for tick in ticks)
+    yield Figure("live: blocks that a tick names", named / len(ticks), "")
+    yield Figure("live: blocks that a tick renders", len(blocks) / len(ticks), "")
+
+
+if __name__ == "__main__":
+    main()

@@ -7,7 +7,8 @@ import statistics
 import time
 from typing import TYPE_CHECKING
 
-from tests.benchmarks.engine import NODES, body, document, race, warm
+from tests.benchmarks.engine import NODES, body, document, warm
+from tests.benchmarks.timing import race
 from tree_gardener import Status, Tree
 from tree_gardener.debugging import Breakpoint, Debugger, Step, Stop, When, place_of
 

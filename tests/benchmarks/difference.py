@@ -5,16 +5,22 @@ Run alone with `python -m tests.benchmarks difference`.
 
 from __future__ import annotations
 
+import sys
 from functools import partial
+from typing import TYPE_CHECKING
 
-from tests.benchmarks.translator import made_tree, measured
+from tests.benchmarks.figures import Figure, show
+from tests.benchmarks.timing import best_s, peak_mb
+from tests.benchmarks.translator import made_tree
 from tests.shared.make_differences import edited, lucky, under_new_ids
 from translator.diagram import to_diagram
 from translator.difference import compare
 
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
 SIZE = 2_000
 EDITS = 50
-TARGET_S = 0.2
 
 
 def deep(size: int) -> dict[str, object]:
@@ -24,8 +30,8 @@ def deep(size: int) -> dict[str, object]:
     return {**to_diagram(made_tree(1)), "nodes": nodes, "root": "n0"}
 
 
-def main() -> None:
-    """Prints a line for each case."""
+def measure(_: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields the time, memory and number of operations of each case; the target is 200 ms."""
     luck = lucky(1)
     wide = to_diagram(made_tree(SIZE))
     edit = edited(luck, wide, EDITS)
@@ -37,10 +43,16 @@ def main() -> None:
         "nothing in common": (wide, under_new_ids(deep(SIZE), "x")),
         "a chain without ids": (chain, under_new_ids(half, "x")),
     }
-    print(f"{'difference, 2,000 nodes':24} {'ms':>9} {'operations':>11} {'peak MB':>9}   target 200 ms")
     for name, (older, newer) in cases.items():
-        seconds, peak = measured(partial(compare, older, newer))
-        print(f"{name:24} {seconds * 1e3:9.1f} {len(compare(older, newer)):11} {peak:9.1f}")
+        work = partial(compare, older, newer)
+        yield Figure(f"{SIZE:,} nodes, {name}", best_s(work) * 1e3, "ms")
+        yield Figure(f"{SIZE:,} nodes, {name}, Python's objects", peak_mb(work), "MB")
+        yield Figure(f"{SIZE:,} nodes, {name}, operations", len(work()), "")
+
+
+def main() -> None:
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
 if __name__ == "__main__":

@@ -110,6 +110,7 @@ class Editor:
             self._writer.write(request)
             return await self._reader.readuntil(b"\r\n\r\n")
         except (asyncio.IncompleteReadError, ConnectionError):
+            self._writer.close()
             await self._connect()
             self._writer.write(request)
             return await self._reader.readuntil(b"\r\n\r\n")

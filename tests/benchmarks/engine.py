@@ -12,24 +12,27 @@ import html
 import itertools
 import mmap
 import sys
-import time
 import tracemalloc
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import behaviortreepy as cpp
 import py_trees
 from py_trees.common import Status as PyTreesStatus
 
+from tests.benchmarks.figures import Figure
+from tests.benchmarks.timing import race
 from tree_gardener import Tree
 from tree_gardener.runner import Runner
 from tree_gardener.script import compiled
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from tree_gardener.node import Node
 
 SIZES = (10, 100, 1_000, 10_000)
+LOADED = (1_000, 10_000, 20_000)
 FAN = 10
 
 
@@ -69,25 +72,6 @@ def body(size: int, control: str = "Sequence", last: str = "Succeed") -> str:
 def document(xml: str) -> str:
     """A document with one tree."""
     return f'<root BTCPP_format="4"><BehaviorTree ID="Main">{xml}</BehaviorTree></root>'
-
-
-def race(*functions: Callable[[], object], least_s: float = 0.03, rounds: int = 7) -> list[float]:
-    """Returns microseconds of processor time for a call of each function: the best of alternating rounds."""
-    calls = []
-    for function in functions:
-        function()
-        start = time.thread_time()
-        function()
-        calls.append(max(1, int(least_s / max(time.thread_time() - start, 1e-6))))
-    best = [float("inf")] * len(functions)
-    for _ in range(rounds):
-        for index, function in enumerate(functions):
-            gc.collect()
-            start = time.thread_time()
-            for _ in range(calls[index]):
-                function()
-            best[index] = min(best[index], (time.thread_time() - start) / calls[index])
-    return [seconds * 1e6 for seconds in best]
 
 
 def warm(*ticks: Callable[[], object]) -> None:
@@ -143,7 +127,7 @@ class Row:
         )
 
 
-def measure(what: str, xml: str, *, rounds: int = 7) -> Row:
+def row(what: str, xml: str, *, rounds: int = 7) -> Row:
     """Measures one tree in all engines."""
     text = document(xml)
     plain, observed = Tree.from_xml(text, NODES), Tree.from_xml(text, NODES)
@@ -164,15 +148,17 @@ def measure(what: str, xml: str, *, rounds: int = 7) -> Row:
 
 def rows(sizes: tuple[int, ...] = SIZES, *, rounds: int = 7) -> list[Row]:
     """All measurements of ticks."""
-    found = []
-    for size in sizes:
-        found.append(measure("full", body(size), rounds=rounds))
-        found.append(measure("resume", body(size, last="Run"), rounds=rounds))
-        found.append(measure("reactive", body(size, "ReactiveSequence", last="Run"), rounds=rounds))
-        found.append(
-            measure("parallel", f"<ParallelAll>{'<Run/>' * (size - 1)}</ParallelAll>", rounds=rounds)
-        )
-    return found
+    return [row(what, xml, rounds=rounds) for size in sizes for what, xml in shapes(size).items()]
+
+
+def shapes(size: int) -> dict[str, str]:
+    """The measured trees of a size."""
+    return {
+        "full": body(size),
+        "resume": body(size, last="Run"),
+        "reactive": body(size, "ReactiveSequence", last="Run"),
+        "parallel": f"<ParallelAll>{'<Run/>' * (size - 1)}</ParallelAll>",
+    }
 
 
 @dataclasses.dataclass(frozen=True)
@@ -205,13 +191,7 @@ SCRIPT = '<ScriptCondition code="1 &lt; 2"/>'
 
 def use_rows(size: int = 1_000, *, rounds: int = 7) -> list[UseRow]:
     """Trees by the nodes' own methods, bare, observed, under a Runner, as in a session, and so on."""
-    trees = {
-        "full": body(size),
-        "resume": body(size, last="Run"),
-        "reactive": body(size, "ReactiveSequence", last="Run"),
-        "parallel": f"<ParallelAll>{'<Run/>' * (size - 1)}</ParallelAll>",
-        "scripts": f"<Sequence>{SCRIPT * (size - 1)}</Sequence>",
-    }
+    trees = shapes(size) | {"scripts": f"<Sequence>{SCRIPT * (size - 1)}</Sequence>"}
     found = []
     for what, xml in trees.items():
         methods, bare, observed, run, session, application, lockstep, hooked = (
@@ -288,7 +268,7 @@ def interpreted() -> Iterator[None]:
         compiled.COMPILES = True
 
 
-def load_times(sizes: tuple[int, ...] = SIZES) -> list[tuple[int, float, float, float]]:
+def load_times(sizes: tuple[int, ...] = LOADED) -> list[tuple[int, float, float, float]]:
     """Size, and milliseconds to load: ours, BT.CPP, py_trees built by hand."""
     found = []
     for size in sizes:
@@ -309,21 +289,45 @@ def _load(xml: str) -> tuple[float, float, float]:
 
 def memory(size: int = 10_000) -> tuple[float, float, float]:
     """Returns bytes for each node: our whole tree, the leaves' own behaviours in it, and stock py_trees."""
-    text = document(body(size))
-
-    def bytes_of(make: Callable[[], object]) -> float:
-        gc.collect()
-        tracemalloc.start()
-        kept = make()
-        used = tracemalloc.get_traced_memory()[0]
-        tracemalloc.stop()
-        del kept
-        return used / size
-
-    tree = Tree.from_xml(text, NODES)
+    tree = Tree.from_xml(document(body(size)), NODES)
     leaves = sum(not node.children for node in tree.nodes)
     behaviours = bytes_of(lambda: [Succeed("Succeed") for _ in range(leaves)])
-    return bytes_of(lambda: Tree.from_xml(text, NODES)), behaviours, bytes_of(lambda: stock(tree.nodes[0]))
+    theirs = bytes_of(lambda: stock(tree.nodes[0]))
+    return own_bytes(size) / size, behaviours / size, theirs / size
+
+
+def own_bytes(size: int) -> float:
+    """Returns the bytes of our tree of a size."""
+    text = document(body(size))
+    return bytes_of(lambda: Tree.from_xml(text, NODES))
+
+
+def bytes_of(make: Callable[[], object]) -> float:
+    """Returns the bytes of Python's objects that a function makes and returns."""
+    gc.collect()
+    tracemalloc.start()
+    kept = make()
+    used = tracemalloc.get_traced_memory()[0]
+    tracemalloc.stop()
+    del kept
+    return used
+
+
+def measure(_: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields our own engine's figures, without its rivals."""
+    sys.setrecursionlimit(10_000)
+    for what, xml in shapes(1_000).items():
+        plain, observed, session = (Tree.from_xml(document(xml), NODES) for _ in range(3))
+        for tree in (observed, session):
+            tree.observe(lambda changes: None)
+        calls = (plain.tick_exactly_once, observed.tick_exactly_once, _under_runner(session))
+        warm(*calls)
+        for how, us in zip(("bare", "observed", "in a session"), race(*calls), strict=True):
+            yield Figure(f"a tick of 1,000 nodes, {what}, {how}", us, "µs")
+    for size in LOADED:
+        load = partial(Tree.from_xml, document(body(size)), NODES)
+        yield Figure(f"loading {size:,} nodes", race(load, rounds=3)[0] / 1e3, "ms")
+    yield Figure("Python's objects of 10,000 nodes", own_bytes(10_000) / 1e6, "MB")
 
 
 def main() -> None:
@@ -335,8 +339,8 @@ def main() -> None:
         f"{'tick':9} {'nodes':>6} {'ours':>10} {'observed':>10} {'tick_once()':>11} {'BT.tick()':>11} "
         f"{'BT.CPP':>10} | {'py_trees':>8} {'BT':>8} {'BT.CPP':>7}  observer"
     )
-    for row in rows():
-        print(row, flush=True)
+    for tick_row in rows():
+        print(tick_row, flush=True)
     print("\n1,000 nodes as they are run; in brackets the ratio to the bare tick")
     print("methods: bare, but by the nodes' own methods; in brackets the ratio of generated code to it")
     heads = ("observed", "Runner", "session", "application", "lock-step", "hook of all")
@@ -350,7 +354,8 @@ def main() -> None:
         print(script_row, flush=True)
     print("\nmilliseconds to load; py_trees is built by hand, without a document")
     for size, ours, other, by_hand in load_times():
-        print(f"{size:6} nodes: ours {ours:8.2f}, BT.CPP {other:8.2f}, py_trees {by_hand:8.2f}")
+        ratio = f"({ours / other:.1f} x)"
+        print(f"{size:6} nodes: ours {ours:8.2f}, BT.CPP {other:8.2f} {ratio}, py_trees {by_hand:8.2f}")
     whole, behaviours, plain = memory()
     print(
         f"\nbytes a node at 10,000 nodes: ours {whole:.0f}, of these {behaviours:.0f} the behaviours "

@@ -13,7 +13,8 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 
-from tests.benchmarks.browser import TASKS, TEMPLATE, open_project, p95, page_of, served_browser
+from tests.benchmarks.browser import TASKS, TEMPLATE, open_project, page_of, served_browser
+from tests.benchmarks.timing import p95
 from tests.benchmarks.trace import traced
 
 if TYPE_CHECKING:

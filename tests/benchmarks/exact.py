@@ -6,9 +6,9 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import math
 import statistics
+import sys
 import time
 from typing import TYPE_CHECKING, Any, Final
 
@@ -18,7 +18,8 @@ from executor import child_messages
 from executor.messages import Poses, Scene
 from executor.session.events import ChildSaid
 from executor.supervision.copies import SNAPSHOT_NAME
-from tests.benchmarks.stream import pss_mb
+from tests.benchmarks.figures import Figure, of_parts, show
+from tests.benchmarks.timing import processor_s, pss_mb
 from tests.executor.application.real_application import UPDATE_RUNNING, app
 from tests.executor.exact.exact_runs import app_folder
 from tests.executor.exact.test_process import exact, ready
@@ -26,7 +27,7 @@ from tests.executor.exact.test_snapshots import FIRST, Runs
 from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 
 LAST_MINUTE_S: Final = (599.0, 590.0, 580.0, 570.0, 560.0, 550.0, 541.0)
 EARLIER_S: Final = (500.0, 431.0, 333.0, 250.0, 177.0, 90.0, 10.0)
@@ -42,22 +43,35 @@ NODES: Final = 600
 APPLIES: Final = 10
 
 
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields every figure; `--parts back motion` leaves the other parts out."""
+    parts = {
+        "back": lambda: _of(
+            going_back("laser_bump_and_go", "walled_room", None),
+            going_back("visual_follow_person", "person_in_green", PICTURES),
+        ),
+        "forks": lambda: _of(forks()),
+        "memory": lambda: _of(memory()),
+        "applying": lambda: _of(applying(is_exact=False), applying(is_exact=True)),
+        "motion": lambda: _of(motion()),
+    }
+    return of_parts(parts, options)
+
+
+def _of(*parts: AsyncIterator[Figure]) -> Iterable[Figure]:
+    async def all_of(part: AsyncIterator[Figure]) -> list[Figure]:
+        return [figure async for figure in part]
+
+    for part in parts:
+        yield from asyncio.run(all_of(part))
+
+
 def main() -> None:
-    """Prints every figure."""
-    asyncio.run(_main())
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
-async def _main() -> None:
-    await going_back("laser_bump_and_go", "walled_room", None)
-    await going_back("visual_follow_person", "person_in_green", PICTURES)
-    await forks()
-    await memory()
-    for is_exact in (False, True):
-        await applying(is_exact=is_exact)
-    await motion()
-
-
-async def going_back(example: str, universe: str, stream: dict[str, Any] | None) -> None:
+async def going_back(example: str, universe: str, stream: dict[str, Any] | None) -> AsyncIterator[Figure]:
     """Makes a run of ten minutes as fast as possible, and goes back in it; then the snapshots only wait."""
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open()
@@ -67,22 +81,18 @@ async def going_back(example: str, universe: str, stream: dict[str, Any] | None)
         assert await client.ask("set_speed", {"speed": 0.0}) == "ack"
         assert await client.ask("pause") == "ack"
         few = await waiting(manager.pid)
+        began_s = time.monotonic()
         assert await client.ask("resume") == "ack"
         await client.event("tick", lambda d: d["n"] >= RUN_S * TICK_HZ, timeout_s=600)
+        yield Figure(f"{example}: {RUN_S} s of simulation", time.monotonic() - began_s, "s")
         assert await client.ask("pause") == "ack"
-        shares = [
-            f"{share:.2f} % of a core with {count} waiting snapshots"
-            for share, count in (few, await waiting(manager.pid))
-        ]
-        camera = "without a camera" if stream is None else "with one"
-        print(f"{example}, {camera}: manager and snapshots take {' and '.join(shares)}", flush=True)
+        for when, (share, count) in (("at first", few), ("at the end", await waiting(manager.pid))):
+            yield Figure(f"{example}: manager and waiting snapshots, {when}, of a core", share, "%")
+            yield Figure(f"{example}: waiting snapshots, {when}", count, "")
         for what, moments in (("the last minute", LAST_MINUTE_S), ("ten minutes", EARLIER_S)):
             times = [await back_s(client, t) for t in moments]
-            print(
-                f"  back within {what}: median {statistics.median(times):.2f} s, "
-                f"all {', '.join(f'{each:.2f}' for each in times)}",
-                flush=True,
-            )
+            yield Figure(f"{example}: back within {what}, median", statistics.median(times), "s")
+            yield Figure(f"{example}: back within {what}, worst", max(times), "s")
         await client.close()
 
 
@@ -99,18 +109,9 @@ async def waiting(pid: int) -> tuple[float, int]:
     family = psutil.Process(pid)
     snapshots = [each for each in family.children(recursive=True) if each.name() == SNAPSHOT_NAME]
     watched = [family, *snapshots]
-    before = _spent_s(watched)
+    before = processor_s(*watched)
     await asyncio.sleep(WATCHED_S)
-    return 100 * (_spent_s(watched) - before) / WATCHED_S, len(snapshots)
-
-
-def _spent_s(processes: Sequence[psutil.Process]) -> float:
-    spent_s = 0.0
-    for each in processes:
-        with contextlib.suppress(psutil.NoSuchProcess):  # a snapshot for which memory is short
-            times = each.cpu_times()
-            spent_s += times.user + times.system
-    return spent_s
+    return 100 * (processor_s(*watched) - before) / WATCHED_S, len(snapshots)
 
 
 class TimedRuns(Runs):
@@ -126,7 +127,7 @@ class TimedRuns(Runs):
         super().report(event)
 
 
-async def forks() -> None:
+async def forks() -> AsyncIterator[Figure]:
     """Times the pause of a run by a snapshot: from the message of its tick to that of the snapshot."""
     with app_folder() as folder:
         it = TimedRuns()
@@ -142,14 +143,11 @@ async def forks() -> None:
             tick_s = at_s
         elif isinstance(message, child_messages.SnapshotTaken) and tick_s < at_s:
             pauses.append((at_s - tick_s) * 1000)
-    print(
-        f"pause of a run by a snapshot, {len(pauses)} of them: median {statistics.median(pauses):.1f} ms, "
-        f"largest {max(pauses):.1f} ms",
-        flush=True,
-    )
+    yield Figure("pause of a run by a snapshot, median", statistics.median(pauses), "ms")
+    yield Figure("pause of a run by a snapshot, largest", max(pauses), "ms")
 
 
-async def memory() -> None:
+async def memory() -> AsyncIterator[Figure]:
     """The memory of a whole session in the warehouse, without its snapshots."""
     for what, data in (
         ("exact", exact(app_zip(), universe="warehouse")),
@@ -162,15 +160,13 @@ async def memory() -> None:
             family = psutil.Process(manager.pid).children(recursive=True)
             of_snapshots = sum(pss_mb(each.pid) for each in family if each.name() == SNAPSHOT_NAME)
             whole = pss_mb(manager.pid)
-            print(
-                f"warehouse, {what} session: {whole - of_snapshots:.0f} MB (PSS) of manager, recorder, spare "
-                f"and world, {of_snapshots:.0f} MB of snapshots",
-                flush=True,
-            )
+            parts_of = "manager, recorder, spare and world"
+            yield Figure(f"warehouse, {what} session: {parts_of} (PSS)", whole - of_snapshots, "MB")
+            yield Figure(f"warehouse, {what} session: snapshots (PSS)", of_snapshots, "MB")
             await client.close()
 
 
-async def applying(*, is_exact: bool) -> None:
+async def applying(*, is_exact: bool) -> AsyncIterator[Figure]:
     """Replaces a tree of 600 nodes while it ticks; counts the periods of ticks that were missed."""
     data = run_data(app(UPDATE_RUNNING, tree(0)))
     data["application"]["on_finish"] = "repeat"
@@ -190,12 +186,10 @@ async def applying(*, is_exact: bool) -> None:
         ticks = [(e["data"]["n"], e["t"]) for e in client.events[at:] if e["command"] == "tick"]
         (first, begin_s), (last, end_s) = ticks[0], ticks[-1]
         missed = round((end_s - begin_s) * TICK_HZ) - (last - first)
-        print(
-            f"*Apply* of {NODES} nodes, {'exact' if is_exact else 'live'}: {missed} of {ticks[-1][0]} ticks "
-            f"missed in {APPLIES}; answered after {statistics.median(durations) * 1000:.0f} ms "
-            f"(largest {max(durations) * 1000:.0f} ms)",
-            flush=True,
-        )
+        where = f"*Apply* of {NODES} nodes, {'exact' if is_exact else 'live'}"
+        yield Figure(f"{where}: ticks missed in {APPLIES}", missed, "")
+        yield Figure(f"{where}: to the answer, median", statistics.median(durations) * 1000, "ms")
+        yield Figure(f"{where}: to the answer, largest", max(durations) * 1000, "ms")
         await client.close()
 
 
@@ -207,7 +201,7 @@ def tree(number: int) -> str:
     )
 
 
-async def motion() -> None:
+async def motion() -> AsyncIterator[Figure]:
     """The time from Run to motion with spares that are ready: the first run of a session, and the next.
 
     The spare application of a new session is for a live run; later spares are for the kind of the last run.
@@ -225,11 +219,8 @@ async def motion() -> None:
                 times.setdefault(f"next, {what}", []).append(await run_to_motion_s(client, data))
                 await client.close()
     for what, found in times.items():
-        print(
-            f"Run to motion, {what}: median {statistics.median(found):.2f} s, "
-            f"{min(found):.2f} to {max(found):.2f} s",
-            flush=True,
-        )
+        yield Figure(f"Run to motion, {what}, median", statistics.median(found), "s")
+        yield Figure(f"Run to motion, {what}, worst", max(found), "s")
 
 
 async def run_to_motion_s(client: SessionClient, data: dict[str, Any]) -> float:

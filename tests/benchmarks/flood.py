@@ -1,16 +1,19 @@
-"""The effect of one client's flood of commands on another: a viewer sends 20,000 while the driver drives.
+"""The effect of a flood on others: of commands on a client of the session, of requests on another user.
 
-Both are clients of a session that runs, first at the manager itself, then through the web server. The flood
-comes from a process of its own and is sent as fast as it is accepted.
+`--parts clients`: a viewer sends 20,000 commands while the driver drives, first at the manager itself, then
+through the web server. The flood comes from a separate process and is sent as fast as it is accepted.
+`--parts users`: `user_floods`, with `--rounds`, `--phase-s` and `--kinds`.
 """
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import contextlib
 import json
 import multiprocessing
 import statistics
+import sys
 import tempfile
 import time
 import urllib.request
@@ -20,12 +23,14 @@ from typing import TYPE_CHECKING, Any
 
 from websockets.asyncio.client import ClientConnection, connect
 
+from tests.benchmarks import user_floods
+from tests.benchmarks.figures import Figure, show
 from tests.benchmarks.session import Client
 from tests.e2e.server import serving
 from tests.executor.session_client import TOKEN, manager_process, run_data
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
+    from collections.abc import Awaitable, Callable, Iterable, Sequence
 
 COMMANDS = 20_000
 QUIET_S = 5.0
@@ -102,15 +107,17 @@ async def repeated(
     return times
 
 
-def told(what: str, times: list[float]) -> str:
-    """Returns one figure with its spread."""
+def spread(what: str, times: list[float]) -> list[Figure]:
+    """Returns one time with its spread."""
     ordered = sorted(times)
-    worst, late = ordered[-1], ordered[int(0.99 * (len(ordered) - 1))]
-    return f"{what} median {statistics.median(ordered):.1f} ms, p99 {late:.1f} ms, worst {worst:.1f} ms"
+    late = ordered[int(0.99 * (len(ordered) - 1))]
+    values = {"median": statistics.median(ordered), "p99": late, "worst": ordered[-1]}
+    return [Figure(f"{what}, {name}", value, "ms") for name, value in values.items()]
 
 
-async def measure(where: str, url: str, headers: Headers, health: str) -> None:
-    """Drives without and with a simultaneous flood, and prints both."""
+async def driving(where: str, url: str, headers: Headers, health: str) -> list[Figure]:
+    """Drives without and with a simultaneous flood, and returns the figures of both."""
+    figures: list[Figure] = []
 
     def ask_health() -> None:
         with urllib.request.urlopen(health, timeout=60) as reply:
@@ -125,35 +132,38 @@ async def measure(where: str, url: str, headers: Headers, health: str) -> None:
         async def look(_: int) -> None:
             await asyncio.to_thread(ask_health)
 
-        async def both(until: Callable[[], bool]) -> str:
+        async def both(when: str, until: Callable[[], bool]) -> None:
             driven, looked = await asyncio.gather(
                 repeated(DRIVE_EVERY_S, drive, until), repeated(HEALTH_EVERY_S, look, until)
             )
-            return f"{told('driver', driven)}; {told('/health', looked)}"
+            figures.extend(spread(f"{where}, {when}: driver", driven))
+            figures.extend(spread(f"{where}, {when}: /health", looked))
 
         end = time.monotonic() + QUIET_S
-        print(f"{where}, quiet: {await both(lambda: time.monotonic() > end)}")
+        await both("quiet", lambda: time.monotonic() > end)
         ours, theirs = multiprocessing.Pipe()
         flooding = multiprocessing.get_context("spawn").Process(
             target=flood_in_process, args=(url, headers, theirs)
         )
         flooding.start()
-        print(f"{where}, beside a flood: {await both(lambda: ours.poll() or not flooding.is_alive())}")
+        await both("beside a flood", lambda: ours.poll() or not flooding.is_alive())
         took_s, answers = ours.recv()
         flooding.join()
-        print(f"{where}, the flood: {COMMANDS} commands answered in {took_s:.1f} s: {dict(answers)}")
+        figures.append(Figure(f"{where}: {COMMANDS:,} commands answered in", took_s, "s"))
+        figures += [Figure(f"{where}: answers {kind}", count, "") for kind, count in answers.items()]
         await answered(driver, "disconnect", {}, "end")
+    return figures
 
 
-async def at_the_manager() -> None:
+async def at_the_manager() -> list[Figure]:
     """Measures without a web server."""
     async with manager_process() as process:
         port = process.ready["port"]
         url, headers = f"ws://127.0.0.1:{port}/control", {"Authorization": f"Bearer {TOKEN}"}
-        await measure("manager", url, headers, f"http://127.0.0.1:{port}/health")
+        return await driving("manager", url, headers, f"http://127.0.0.1:{port}/health")
 
 
-def through_the_web_server() -> None:
+def through_the_web_server() -> list[Figure]:
     """Measures through the web server, as browsers do."""
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as server:
         client = Client(server)
@@ -162,15 +172,32 @@ def through_the_web_server() -> None:
         cookie = "; ".join(f"{c.name}={c.value}" for c in client.cookies)
         url = server.origin.replace("http", "ws") + session["control_url"]
         headers = {"Cookie": cookie, "Origin": server.origin}
-        asyncio.run(measure("web server", url, headers, f"{server.origin}/health/live"))
+        figures = asyncio.run(driving("web server", url, headers, f"{server.origin}/health/live"))
         with contextlib.suppress(OSError):
             client.call("DELETE", f"/sessions/{session['id']}")
+        return figures
+
+
+def of_clients() -> Iterable[Figure]:
+    """Yields the figures at the manager, then those through the web server."""
+    yield from asyncio.run(at_the_manager())
+    yield from through_the_web_server()
+
+
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields the figures of both parts."""
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--parts", nargs="+", choices=["clients", "users"], default=["clients", "users"])
+    parts = parser.parse_known_args(options)[0].parts
+    if "clients" in parts:
+        yield from of_clients()
+    if "users" in parts:
+        yield from user_floods.measure(options)
 
 
 def main() -> None:
     """Prints the figures."""
-    asyncio.run(at_the_manager())
-    through_the_web_server()
+    show(measure(sys.argv[1:]))
 
 
 if __name__ == "__main__":

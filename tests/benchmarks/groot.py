@@ -9,7 +9,8 @@ import multiprocessing
 import time
 from typing import TYPE_CHECKING, Final
 
-from tests.benchmarks.engine import NODES, STATUS, body, document, race, warm
+from tests.benchmarks.engine import NODES, STATUS, body, document, warm
+from tests.benchmarks.timing import race
 from tests.tree_gardener.debugging.hooked import free_port
 from tree_gardener import Tree
 from tree_gardener.groot import Groot2Publisher

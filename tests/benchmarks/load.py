@@ -110,6 +110,7 @@ def settings_of(services: dict[str, str]) -> tuple[dict[str, str], int]:
         port = free.getsockname()[1]
     settings = {
         "BT_STUDIO_MODE": "team",
+        "BT_STUDIO_UNSAFE_USERS_RUN_AS_SERVER": "true",
         "BT_STUDIO_PUBLIC_URL": f"http://127.0.0.1:{port}",
         "BT_STUDIO_SECRET_KEY": "k" * 40,
     }

@@ -9,17 +9,22 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import statistics
+import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import psutil
 import requests
 
 from tests.backend.serving import Served, serving
+from tests.benchmarks.figures import Figure, show
+from tests.benchmarks.timing import processor_s
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 ACTION = '''"""Drives on for a while."""
 
@@ -62,26 +67,21 @@ def project_files(number: int) -> list[dict[str, object]]:
     return [{"path": path, "base_revision": 0, "content": text} for path, text in files.items()]
 
 
-def used_s(server: Served) -> float:
-    """Returns the processor time of the server so far."""
-    times = psutil.Process(server.process.pid).cpu_times()
-    return float(times.user + times.system)
-
-
 def opened(server: Served, project: str) -> tuple[float, float, int]:
     """Returns the time to the complete answer and the processor time, in ms, and the size of the answer."""
-    before, started = used_s(server), time.perf_counter()
+    process = psutil.Process(server.process.pid)
+    before, started = processor_s(process), time.perf_counter()
     answer = requests.get(f"{server.base}/api/v1/projects/{project}", headers=server.headers, timeout=60)
     took = time.perf_counter() - started
     answer.raise_for_status()
-    return 1000 * took, 1000 * (used_s(server) - before), len(answer.content)
+    return 1000 * took, 1000 * (processor_s(process) - before), len(answer.content)
 
 
-def main() -> None:
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
     """Makes the project, starts the server again, and opens it."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--files", type=int, default=500)
-    options, _ = parser.parse_known_args()
+    chosen = parser.parse_args(options)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         with serving(folder) as server:
@@ -89,18 +89,29 @@ def main() -> None:
             ask.headers.update(server.headers)
             base = f"{server.base}/api/v1/projects"
             project = ask.post(base, json={"name": "Large"}, timeout=60).json()["id"]
-            changes: Any = {"files": project_files(options.files)}
+            changes: Any = {"files": project_files(chosen.files)}
             ask.post(f"{base}/{project}/changes", json=changes, timeout=60).raise_for_status()
         with serving(folder) as server:
             # The very first request pays for imports, which is independent of this project.
             small = {"name": "Small"}
             requests.post(f"{server.base}/api/v1/projects", json=small, headers=server.headers, timeout=60)
             took, used, size = opened(server, project)
-            print(f"{options.files} files, {size / 1e3:.0f} kB, load average {os.getloadavg()[0]:.1f}")
-            print(f"  cold   {took:7.0f} ms   {used:7.0f} ms of processor")
-            warm = [opened(server, project) for _ in range(TIMES)]
-            took, used = (statistics.median(row[n] for row in warm) for n in (0, 1))
-            print(f"  warm   {took:7.0f} ms   {used:7.0f} ms of processor (median of {TIMES})")
+            what = f"opening {chosen.files} files"
+            yield Figure(f"{what}: size of the answer", size / 1e3, "kB")
+            yield Figure(f"{what}, cold: to the complete answer", took, "ms")
+            yield Figure(f"{what}, cold: processor time", used, "ms")
+            process = psutil.Process(server.process.pid)
+            before_s = processor_s(process)
+            warm = [opened(server, project)[0] for _ in range(TIMES)]
+            # The kernel counts in steps of 10 ms, so all of them are taken together.
+            used = 1000 * (processor_s(process) - before_s) / TIMES
+            yield Figure(f"{what}, warm: to the complete answer, median", statistics.median(warm), "ms")
+            yield Figure(f"{what}, warm: processor time, mean", used, "ms")
+
+
+def main() -> None:
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
 if __name__ == "__main__":

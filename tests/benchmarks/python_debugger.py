@@ -15,10 +15,11 @@ import msgspec
 
 from executor.adapter_messages import AdapterText, FromAdapter, StartAdapter, ToAdapter, decode_from_adapter
 from executor.application.host import enter
-from executor.application.python_debugger import connect, trace
+from executor.application.python.debugger import connect, trace
 from executor.child_messages import ConnectDebugger
 from executor.supervision.channel import Channel, socket_pair
-from tests.benchmarks.engine import race, warm
+from tests.benchmarks.engine import warm
+from tests.benchmarks.timing import race
 
 ROOT = pathlib.Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples/laser_bump_and_go"

@@ -14,6 +14,7 @@ from typing import Any
 import psutil
 
 from executor.messages import Camera
+from tests.benchmarks.timing import processor_s
 from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
 
 ROUNDS = 3
@@ -59,13 +60,13 @@ async def cost(example: str, universe: str, stream: dict[str, Any] | None, *opti
         await client.ask("run", run_data(app_zip(example), universe))
         await asyncio.sleep(3.0)
         manager = psutil.Process(process.pid)
-        before = {p.pid: _spent_s(p) for p in (manager, *manager.children())}
+        before = {p.pid: processor_s(p) for p in (manager, *manager.children())}
         seen = _pictures(client)
         await asyncio.sleep(WATCHED_S)
         spent: dict[str, float] = {}
         for one in (manager, *manager.children()):
             if one.pid in before:
-                spent[_kind(one)] = 100 * (_spent_s(one) - before[one.pid]) / WATCHED_S
+                spent[_kind(one)] = 100 * (processor_s(one) - before[one.pid]) / WATCHED_S
         spent[PICTURES] = (_pictures(client) - seen) / WATCHED_S
         await client.close()
     return spent
@@ -73,11 +74,6 @@ async def cost(example: str, universe: str, stream: dict[str, Any] | None, *opti
 
 def _pictures(client: SessionClient) -> int:
     return sum(isinstance(frame, Camera) for _, frame in client.frames)
-
-
-def _spent_s(process: psutil.Process) -> float:
-    times = process.cpu_times()
-    return float(times.user + times.system)
 
 
 def _kind(process: psutil.Process) -> str:

@@ -25,6 +25,7 @@ from tests.backend.services import postgresql, redis
 from tests.backend.serving import Served, serving
 from tests.benchmarks.editors import Editor, Measured
 from tests.benchmarks.load import settings_of, sign_in
+from tests.benchmarks.timing import processor_s
 from tests.benchmarks.without import ALL, PIECES
 
 WITH_ALL = ""
@@ -45,8 +46,7 @@ class Server:
 
     def cpu_s(self) -> float:
         """Processor time of the web process so far, without its children."""
-        times = psutil.Process(self.served.process.pid).cpu_times()
-        return times.user + times.system
+        return processor_s(psutil.Process(self.served.process.pid))
 
     async def open(self, people: list[tuple[str, str]], own: int, measured: Measured) -> None:
         """Connects the editors, and lets them save until all caches are warm."""

@@ -12,16 +12,21 @@ from __future__ import annotations
 import argparse
 import asyncio
 import random
+import sys
 import tempfile
 import time
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tests.backend.serving import serving
 from tests.benchmarks.editors import Editor, Measured
+from tests.benchmarks.figures import Figure, show
 from tests.benchmarks.load import sign_in, team
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 FILES = 10
 """Action files of each client."""
@@ -176,27 +181,33 @@ async def storm(port: int, people: list[tuple[str, str]], saves: int, *, seed: i
     return answers
 
 
-def main() -> None:
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
     """Starts a team's server, and saves."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--saves", type=int, default=100_000)
     parser.add_argument("--clients", type=int, default=8)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=0)
-    options, _ = parser.parse_known_args()
+    chosen = parser.parse_args(options)
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         settings, port = team(stack, folder, sqlite=False)
-        more = ("--workers", str(options.workers)) if options.workers else ()
+        more = ("--workers", str(chosen.workers)) if chosen.workers else ()
         served = stack.enter_context(serving(folder, "--port", str(port), *more, **settings))
-        people = sign_in(folder, settings, options.clients)
-        answers = asyncio.run(storm(served.port, people, options.saves, seed=options.seed))
+        people = sign_in(folder, settings, chosen.clients)
+        answers = asyncio.run(storm(served.port, people, chosen.saves, seed=chosen.seed))
     done = answers.saved + answers.conflicts
-    rate = f"{answers.seconds:.0f} s: {done / answers.seconds:.0f} a second"
-    print(f"{done} answers to {options.clients} clients in {rate}")
-    print(f"{answers.saved} saved, {answers.conflicts} conflicts meant, {len(answers.false)} false answers")
+    yield Figure(f"answers to {chosen.clients} clients", done / answers.seconds, "/s", "higher")
+    yield Figure("saved", answers.saved, "", "higher")
+    yield Figure("conflicts meant", answers.conflicts, "")
+    yield Figure("false answers", len(answers.false), "")
     for lie in answers.false[:SHOWN]:
         print(f"  {lie}")
+
+
+def main() -> None:
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
 if __name__ == "__main__":

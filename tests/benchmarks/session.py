@@ -6,17 +6,24 @@ decodes every message, as a browser would.
 
 from __future__ import annotations
 
+import argparse
 import json
 import statistics
+import sys
 import tempfile
 import time
 import urllib.request
 from http.cookiejar import CookieJar
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from tests.benchmarks.figures import Figure, show
+from tests.benchmarks.timing import processor_s
 from tests.e2e.observer import Observer
 from tests.e2e.server import Server, serving, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 RUNS = 5
 WATCHED_S = 20.0
@@ -67,37 +74,53 @@ def moved(observer: Observer) -> bool:
     return "robot" in observer.objects and observer.distance_travelled("robot") > 0.002
 
 
-def main() -> None:
-    """Prints the figures of one run."""
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields the figures of one server."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--runs", type=int, default=RUNS)
+    parser.add_argument("--watched", type=float, default=WATCHED_S, metavar="SECONDS")
+    chosen = parser.parse_args(options)
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as server:
         client = Client(server)
-        times = []
-        for _ in range(RUNS):
+        times, used = [], []
+        for _ in range(chosen.runs):
+            before_s = _used_s(server)
             seconds, observer, session = run_to_motion_s(client, "laser_bump_and_go")
             times.append(seconds)
+            used.append(_used_s(server) - before_s)
             observer.close()
             client.call("DELETE", f"/sessions/{session}")
-        print(
-            f"Run to first changed pose, warm: median {statistics.median(times):.2f} s,"
-            f" worst {max(times):.2f} s"
-        )
+        yield Figure("Run to first changed pose, warm, median", statistics.median(times), "s")
+        yield Figure("Run to first changed pose, warm, worst", max(times), "s")
+        yield Figure("meanwhile processor time, median", statistics.median(used), "s")
 
         _, observer, session = run_to_motion_s(client, "visual_follow_person")
         viewer = client.join(session)
         viewer.send("subscribe", {"stream": "camera", "max_hz": 15})
         start_t, start = observer.sim_time(), dict(observer.frames)
         start_camera, began = viewer.frames.get("camera", 0), time.monotonic()
-        time.sleep(WATCHED_S)
+        before_s = _used_s(server)
+        time.sleep(chosen.watched)
         passed = time.monotonic() - began
-        print(
-            f"with one 3D client and one camera client over {passed:.0f} s: "
-            f"real-time factor {(observer.sim_time() - start_t) / passed:.3f}, "
-            f"{(observer.frames['poses'] - start['poses']) / passed:.1f} pose frames/s, "
-            f"{(viewer.frames['camera'] - start_camera) / passed:.1f} camera frames/s"
-        )
+        who = "with one 3D client and one camera client"
+        yield Figure(f"{who}: real-time factor", (observer.sim_time() - start_t) / passed, "×", "higher")
+        poses, pictures = observer.frames["poses"] - start["poses"], viewer.frames["camera"] - start_camera
+        yield Figure(f"{who}: pose frames", poses / passed, "/s", "higher")
+        yield Figure(f"{who}: camera frames", pictures / passed, "/s", "higher")
+        cores = (_used_s(server) - before_s) / passed
+        yield Figure(f"{who}: processor time of all processes", 100 * cores, "%")
         observer.close()
         viewer.close()
         client.call("DELETE", f"/sessions/{session}")
+
+
+def _used_s(server: Server) -> float:
+    return processor_s(server.process, *server.process.children(recursive=True))
+
+
+def main() -> None:
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
 if __name__ == "__main__":

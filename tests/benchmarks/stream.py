@@ -10,12 +10,12 @@ import asyncio
 import contextlib
 import statistics
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import psutil
 
 from executor.messages import Camera, Poses, View
+from tests.benchmarks.timing import pss_mb
 from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
 
 if TYPE_CHECKING:
@@ -170,17 +170,6 @@ async def side_by_side(count: int) -> None:
 
 def _last_sim(client: SessionClient) -> dict[str, Any]:
     return dict(next(event["data"] for event in reversed(client.events) if event["command"] == "sim"))
-
-
-def pss_mb(pid: int) -> float:
-    """The proportional memory of a process and all below it, in MB; one that has just ended has none."""
-    family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
-    total = 0
-    for process in family:
-        with contextlib.suppress(ProcessLookupError, FileNotFoundError):
-            text = Path(f"/proc/{process.pid}/smaps_rollup").read_text()
-            total += int(next(line.split()[1] for line in text.splitlines() if line.startswith("Pss:")))
-    return total / 1000
 
 
 if __name__ == "__main__":

@@ -82,11 +82,11 @@ def find_the_faulty_line(hand: Hand) -> None:
     code = studio.at("code-editor").locator(".cm-content")
     code.click()
     studio.page.keyboard.press("Control+Home")
-    studio.page.keyboard.insert_text("import nothing_of_that_name\n")
+    studio.page.keyboard.insert_text("nothing = 1 / 0\n")
     studio.saved()
     hand.click("run")
     hand.click(studio.at("banner").get_by_role("button").first)
-    expect(studio.page.locator(".cm-activeLine")).to_contain_text("nothing_of_that_name")
+    expect(studio.page.locator(".cm-activeLine")).to_contain_text("nothing = 1")
 
 
 def see_what_it_did(hand: Hand) -> None:

@@ -18,9 +18,11 @@ from executor.render.tiny import TinyRenderer
 from executor.ros.environment import ros_environment
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
+from tests.benchmarks.figures import Figure, of_parts, show
+from tests.benchmarks.timing import median_ms
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterable, Sequence
 
 ROOT = Path(__file__).parents[2]
 DOMAIN_ID = 34
@@ -29,26 +31,18 @@ PICTURES = 45
 TURNS = 24
 
 
+def measure(options: Sequence[str] = ()) -> Iterable[Figure]:
+    """Yields every figure; those of TinyRenderer are a rival's. `--parts lockstep` leaves the others out."""
+    parts = {"pictures": pictures, "physics": physics, "lockstep": locksteps, "processes": processes}
+    return of_parts(parts, options)
+
+
 def main() -> None:
-    """Prints every figure."""
-    pictures()
-    physics()
-    lockstep("laser_bump_and_go", 60)
-    lockstep("visual_follow_person", 20)
-    processes()
+    """Prints the figures."""
+    show(measure(sys.argv[1:]))
 
 
-def median_ms(act: Callable[[], object], count: int) -> float:
-    """Returns the median duration of a function in ms."""
-    times = []
-    for _ in range(count):
-        began_s = time.perf_counter()
-        act()
-        times.append((time.perf_counter() - began_s) * 1000)
-    return statistics.median(times)
-
-
-def pictures() -> None:
+def pictures() -> Iterable[Figure]:
     """Draws the robot's camera with both renderers in turn, while the world moves."""
     for universe in ("person_in_green", "warehouse"):
         world = BulletWorld(load_builtin(universe))
@@ -56,17 +50,11 @@ def pictures() -> None:
         gl, tiny = GlRenderer(), TinyRenderer()
         for renderer in (gl, tiny):
             renderer.load(world.scene)
-        print(f"{universe}, {shapes} shapes, by {gl.name}; ours with shadows and, if smooth, antialiasing:")
         for width, height in SIZES:
             times = _compare(world, gl, tiny, (width, height))
             middle = {name: statistics.median(values) for name, values in times.items()}
-            rival = middle["Tiny, shadows"]
-            print(
-                f"  {width:4}×{height:3}: "
-                f"plain {middle['plain']:5.1f} ms, smooth {middle['smooth']:5.1f} ms; "
-                f"TinyRenderer {middle['Tiny']:6.1f} ms, with shadows {rival:6.1f} ms: "
-                f"{middle['Tiny'] / middle['smooth']:.0f} and {rival / middle['smooth']:.0f} times as long"
-            )
+            for name, ms in middle.items():
+                yield Figure(f"{universe}, {shapes} shapes, {width}×{height}, {name}", ms, "ms")
         gl.close()
         tiny.close()
         world.close()
@@ -94,7 +82,7 @@ def _compare(
     return times
 
 
-def physics() -> None:
+def physics() -> Iterable[Figure]:
     """Times steps, scans and poses."""
     for universe in ("walled_room", "person_in_green"):
         world = BulletWorld(load_builtin(universe))
@@ -103,12 +91,19 @@ def physics() -> None:
         step = median_ms(partial(world.step, 4), 500) / 4
         scan = median_ms(partial(robot.scan, robot.config.lidars[0]), 100)
         load = (step * 240 + scan * 10) / 10
-        costs = f"{step * 1000:.0f} µs a step, {scan:.2f} ms a scan"
-        print(f"{universe}: {costs}, {load:.1f} % of a core in real time")
+        yield Figure(f"{universe}: a step", step * 1000, "µs")
+        yield Figure(f"{universe}: a scan", scan, "ms")
+        yield Figure(f"{universe}: physics in real time, of a core", load, "%")
         world.close()
 
 
-def lockstep(example: str, duration_s: float) -> None:
+def locksteps() -> Iterable[Figure]:
+    """Runs both examples in lock-step."""
+    yield from lockstep("laser_bump_and_go", 60)
+    yield from lockstep("visual_follow_person", 20)
+
+
+def lockstep(example: str, duration_s: float) -> Iterable[Figure]:
     """Runs an example in lock-step in a fresh process."""
     program = ROOT / "tests" / "executor" / "headless" / "lockstep_run.py"
     command = [sys.executable, str(program), str(ROOT / "examples" / example)]
@@ -120,13 +115,13 @@ def lockstep(example: str, duration_s: float) -> None:
         check=True,
     )
     report = json.loads(done.stdout)["report"]
-    print(
-        f"lock-step {example}: {report['real_time_factor']:.1f} times real time, "
-        f"{report['distance_m']:.1f} m, {report['collisions']} collisions"
-    )
+    what = f"lock-step {example}, {duration_s:.0f} s"
+    yield Figure(f"{what}: speed", report["real_time_factor"], "×", "higher")
+    yield Figure(f"{what}: distance", report["distance_m"], "m", "higher")
+    yield Figure(f"{what}: collisions", report["collisions"], "")
 
 
-def processes() -> None:
+def processes() -> Iterable[Figure]:
     """Starts a world and a plain rclpy program, and counts what arrives."""
     import msgspec
 
@@ -153,9 +148,9 @@ def processes() -> None:
         channel.close()
     stamps = said["stamps"]
     lost = round((stamps[-1] - stamps[0]) * 15) + 1 - len(stamps)
-    print(f"world process: ready {ready_s:.2f} s after it was started cold")
-    print(f"discovery: {said['matched_s']:.2f} s from the later node's creation to the match")
-    print(f"pictures of 640×480 at 15 Hz between processes: {len(stamps)} arrived, {lost} lost")
+    yield Figure("world process, from a cold start to ready", ready_s, "s")
+    yield Figure("discovery, from the later node's creation to the match", said["matched_s"], "s")
+    yield Figure(f"pictures of 640×480 at 15 Hz lost, of {len(stamps)}", lost, "")
 
 
 def _start(channel: Any) -> float:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.backend.migrated import add_sqlite
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -20,6 +22,7 @@ NAME = "Patrol at noon"
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("data")
+    add_sqlite(folder)
     made = studio(folder, "new", NAME, "--template", "laser_bump_and_go")
     assert made.returncode == 0, made.stderr.decode()
     return folder

@@ -10,8 +10,8 @@ from tests.docker.engine import why_not
 
 REASON = why_not() if count("docker_stack") else "`make test-docker` runs it"
 HEAVY = [
-    *("test_acme.py", "test_gate.py", "test_hostile.py", "test_hosts.py", "test_local.py", "test_ring.py"),
-    *("test_stack.py", "test_up.py", "test_upgrade.py"),
+    *("test_acme.py", "test_gate.py", "test_hostile.py", "test_local.py", "test_ring.py"),
+    *("test_sealed.py", "test_stack.py", "test_up.py", "test_upgrade.py"),
 ]
 collect_ignore = HEAVY if REASON else []
 

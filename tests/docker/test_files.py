@@ -11,20 +11,18 @@ import kubernetes_validate
 import pytest
 import yaml
 
-from backend.config.environment import Environment
-from backend.sessions.hosts.contact import LOST_S
+from backend.config.environment import REMOVED, Environment
 from tests.docker.engine import REPOSITORY
 from tests.fakes.kubernetes_api import ALLOWED, ALLOWED_OF_EVALUATIONS
 
 DOCKER = REPOSITORY / "docker"
-HOW_TO = REPOSITORY / "docs/how-to/run-on-several-hosts.md"
 OVERLAY_OF_ALL = DOCKER / "kubernetes" / "kustomization.yaml"
 MANIFESTS = sorted(set((DOCKER / "kubernetes").glob("*.yaml")) - {OVERLAY_OF_ALL})
 EVALUATIONS = DOCKER / "kubernetes-evaluations"
 OVERLAY = DOCKER / "compose.proxy.yaml"
-HOST = DOCKER / "compose.host.yaml"
 COMPOSE = sorted(set(DOCKER.glob("compose*.yaml")) - {OVERLAY})
 KUBERNETES = "1.31.0"
+GONE = {f"BT_STUDIO_{name}" for name in REMOVED} | {"BT_STUDIO_HOST_SESSIONS"}
 
 
 @pytest.mark.parametrize("path", MANIFESTS, ids=lambda path: path.name)
@@ -143,7 +141,7 @@ def test_compose_files_start_with_old_and_new_compose(path):
     assert sockets == ["keeper"]
     for name in ("keeper", "gate"):
         assert document["services"][name]["network_mode"] == "none"
-    for name in ("relay" if path == HOST else "web", "keeper", "gate"):
+    for name in ("web", "keeper", "gate"):
         service = document["services"][name]
         assert (service["read_only"], service["cap_drop"]) == (True, ["ALL"])
         assert "privileged" not in service
@@ -154,24 +152,6 @@ def test_compose_files_start_with_old_and_new_compose(path):
     assert [name for name in mounts if "doors:" in mounts[name]] == ["keeper", "gate"]
     assert [name for name in mounts if "control:" in mounts[name]] == ["keeper", "gate"]
     assert "sockets:" not in mounts["gate"]
-
-
-def test_a_further_host_has_the_same_keeper_and_gate_and_shows_the_relay_alone():
-    here = yaml.safe_load((DOCKER / "compose.yaml").read_text())["services"]
-    there = yaml.safe_load(HOST.read_text())["services"]
-    assert set(there) == {"keeper", "gate", "relay"}
-    assert there["gate"] == here["gate"]
-    keeper, own = there["keeper"], here["keeper"]
-    silence = keeper["environment"].pop("BT_STUDIO_KEEPER_SILENCE_S")
-    assert float(silence) > 2 * LOST_S
-    # The server's own machine may have fewer places than the server.
-    assert own["environment"].pop("BT_STUDIO_HOST_SESSIONS") == "${BT_STUDIO_HOST_SESSIONS:-}"
-    keeper["group_add"] = own["group_add"]
-    assert keeper == own
-    relay = there["relay"]
-    assert [name for name, service in there.items() if "ports" in service] == ["relay"]
-    assert [mount.rpartition(":")[2] for mount in relay["volumes"]] == ["ro", "ro"]
-    assert "docker.sock" not in str(relay)
 
 
 def test_only_caddy_publishes_ports_unless_a_proxy_takes_its_place():
@@ -189,16 +169,9 @@ def test_only_caddy_publishes_ports_unless_a_proxy_takes_its_place():
 
 def test_each_variable_of_the_compose_files_is_explained_in_the_example():
     text = (DOCKER / "compose.yaml").read_text() + OVERLAY.read_text()
-    host = re.search(r"(?ms)^cat > docker/host.env <<.*?^EOF", HOW_TO.read_text())[0]
-    explained = set(re.findall(r"BT_STUDIO_\w+", HOW_TO.read_text()))
-    assert set(re.findall(r"\$\{(BT_STUDIO_\w+):\?", HOST.read_text())) <= set(
-        re.findall(r"(?m)^(BT_STUDIO_\w+)=", host)
-    )
-    in_example = set(re.findall(r"(?m)^#? ?(BT_STUDIO_\w+)=", (DOCKER / ".env.example").read_text()))
-    assert set(re.findall(r"\$\{(BT_STUDIO_\w+)", HOST.read_text())) <= explained | in_example
     asked = set(re.findall(r"\$\{(BT_STUDIO_\w+)", text))
     explained = set(re.findall(r"(?m)^#? ?(BT_STUDIO_\w+)=", (DOCKER / ".env.example").read_text()))
-    assert asked - explained == set()
+    assert asked - explained == GONE, "settings of earlier releases, which the programs refuse by name"
 
 
 @pytest.mark.parametrize("name", ["web", "executor"])

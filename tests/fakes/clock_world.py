@@ -80,6 +80,8 @@ class ClockWorld:
                 self.channel.send({"type": "log", "level": "info", "text": f"cmd_vel {self.last}"})
             case "step":
                 self.advance(message["dt_s"])
+            case "reset":
+                self.time_s = 0.0
 
 
 def main():

@@ -33,3 +33,23 @@ def wrong_publisher(port: int, answer: Callable[[list[bytes]], list[bytes]]) -> 
         is_over.set()
         thread.join()
         context.destroy(linger=0)
+
+
+@contextmanager
+def leaving_publisher(port: int, then: Callable[[], None]) -> Iterator[None]:
+    """Takes one request and ends without an answer; `then` is called after it."""
+    context = zmq.Context()
+    socket = context.socket(zmq.REP)
+    socket.bind(f"tcp://127.0.0.1:{port}")
+
+    def serve() -> None:
+        socket.recv_multipart()
+        context.destroy(linger=0)
+        then()
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    try:
+        yield
+    finally:
+        thread.join()

@@ -1,4 +1,4 @@
-"""Two projects as people write them in JdeRobot's BT Studio.
+"""Projects as people write them in JdeRobot's BT Studio.
 
 Plain subscriptions (which are reliable), `tree_tools`, `cv_bridge`, `ports` in the constructor,
 `Status.INVALID` before the first message.
@@ -121,9 +121,107 @@ def update(self):
     setup=VELOCITY,
 )
 
+SEES_RED = source(
+    "SeesRed",
+    """
+def heard(self, picture):
+    self.picture = self.bridge.imgmsg_to_cv2(picture, "bgr8")
 
-def write_wanderer(folder: Path) -> Path:
-    """Writes a project that drives with a LIDAR and turns away from obstacles."""
+def update(self):
+    if self.picture is None:
+        return py_trees.common.Status.INVALID
+    red = cv2.inRange(self.picture[260:270], np.array([17, 15, 70]), np.array([50, 56, 255]))
+    _, columns = np.nonzero(red)
+    if len(columns) == 0:
+        return py_trees.common.Status.FAILURE
+    tree_tools.set_port_content(self.ports["column"], float(columns.mean()))
+    return py_trees.common.Status.SUCCESS
+""",
+    made="self.bridge, self.picture = CvBridge(), None",
+    setup="""self.ear = self.node.create_subscription(
+            sensor_msgs.msg.Image, "/cam_f1_left/image_raw", self.heard, 10
+        )""",
+    imports="import cv2\nimport numpy as np\nfrom cv_bridge import CvBridge\n",
+)
+STEER = source(
+    "Steer",
+    """
+def update(self):
+    error = 320 - float(self.port("column"))
+    speed = geometry_msgs.msg.Twist()
+    speed.linear.x = max(4.0, 8.0 - abs(error) * 0.05)
+    speed.angular.z = error * 0.01
+    self.publisher.publish(speed)
+    return py_trees.common.Status.RUNNING
+""",
+    setup=VELOCITY,
+)
+FORCES = source(
+    "Forces",
+    """
+def scanned(self, scan):
+    self.scan = scan
+
+def moved(self, odometry):
+    self.place = odometry.pose.pose
+
+def update(self):
+    if self.place is None or len(self.scan.ranges) < 180:
+        return py_trees.common.Status.INVALID
+    turned = 2 * math.atan2(self.place.orientation.z, self.place.orientation.w)
+    goal = float(self.port("x")) - self.place.position.x, float(self.port("y")) - self.place.position.y
+    bearing = math.atan2(goal[1], goal[0]) - turned
+    ahead, left = 2 * math.cos(bearing), 2 * math.sin(bearing)
+    for number, distance in enumerate(self.scan.ranges):
+        push = 0.2 / 2.7 ** (2 * distance)
+        ahead -= push * math.cos(math.radians(number - 90))
+        left -= push * math.sin(math.radians(number - 90))
+    speed = geometry_msgs.msg.Twist()
+    speed.linear.x, speed.angular.z = max(0.0, ahead), left
+    self.publisher.publish(speed)
+    return py_trees.common.Status.RUNNING
+""",
+    made="self.scan, self.place = sensor_msgs.msg.LaserScan(), None",
+    setup=VELOCITY
+    + """
+        self.ears = [
+            self.node.create_subscription(sensor_msgs.msg.LaserScan, "/f1/laser/scan", self.scanned, 10),
+            self.node.create_subscription(nav_msgs.msg.Odometry, "/odom", self.moved, 10),
+        ]""",
+    imports="import math\n\nimport nav_msgs\n",
+)
+
+
+def write_racer(folder: Path) -> Path:
+    """Writes a project that follows a red line with the camera of the F1."""
+    graph = Graph()
+    graph.node("root", ROOT)
+    graph.node("all", "ReactiveSequence")
+    graph.node("look", "SeesRed", y=400, ports={"column": "output"})
+    graph.node("go", "Steer", y=50, ports={"column": "input"})
+    for parent, child in (("root", "all"), ("all", "look"), ("all", "go")):
+        graph.join(parent, child)
+    graph.feed(graph.tag("out", "{column}", writes=True), "look", "column")
+    graph.feed(graph.tag("in", "{column}"), "go", "column")
+    return _write(folder, graph, {"SeesRed": SEES_RED, "Steer": STEER})
+
+
+def write_avoider(folder: Path) -> Path:
+    """Writes a project that drives to a target among obstacles, with the laser of the F1."""
+    graph = Graph()
+    graph.node("root", ROOT)
+    graph.node("go", "Forces", ports={"x": "input", "y": "input"})
+    graph.join("root", "go")
+    for port, value in (("x", "0"), ("y", "-30")):
+        graph.feed(graph.tag(port, value), "go", port)
+    return _write(folder, graph, {"Forces": FORCES})
+
+
+def write_wanderer(folder: Path, order: str = "bottom-to-top") -> Path:
+    """Writes a project that drives with a LIDAR and turns away from obstacles.
+
+    In the other `order` it only drives.
+    """
     graph = Graph()
     graph.node("root", ROOT)
     graph.node("all", "ReactiveSequence")
@@ -142,7 +240,7 @@ def write_wanderer(folder: Path) -> Path:
         ("t", "0.6", "turn", "speed"), ("s", "0.4", "go", "speed"),
     ):  # fmt: skip
         graph.feed(graph.tag(tag, value), node, port)
-    return _write(folder, graph, {"IsNear": IS_NEAR, "Advance": ADVANCE, "Rotate": ROTATE})
+    return _write(folder, graph, {"IsNear": IS_NEAR, "Advance": ADVANCE, "Rotate": ROTATE}, order)
 
 
 def write_follower(folder: Path) -> Path:
@@ -169,12 +267,12 @@ def write_follower(folder: Path) -> Path:
     return _write(folder, graph, {"SeesGreen": SEES_GREEN, "Approach": APPROACH, "Rotate": ROTATE})
 
 
-def _write(folder: Path, graph: Graph, actions: Mapping[str, str]) -> Path:
+def _write(folder: Path, graph: Graph, actions: Mapping[str, str], order: str = "bottom-to-top") -> Path:
     trees, code = folder / "code" / "trees", folder / "code" / "actions"
     trees.mkdir(parents=True)
     code.mkdir()
     (trees / "main.json").write_text(json.dumps(graph.document()))
-    settings = {"name": folder.name, "config": {"btOrder": "bottom-to-top"}}
+    settings = {"name": folder.name, "config": {"btOrder": order}}
     (folder / "config.json").write_text(json.dumps(settings))
     for name, text in actions.items():
         (code / f"{name}.py").write_text(text)

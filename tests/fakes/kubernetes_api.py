@@ -57,6 +57,12 @@ class ApiError(Exception):
         }  # fmt: skip
 
 
+class _Server(ThreadingHTTPServer):
+    # The kernel drops connections over this number, and tries again after 1, 3 and 7 s: 5 are too few for a
+    # hundred clients.
+    request_queue_size = 512
+
+
 class FakeCluster:
     """An API server on a free port of this machine.
 
@@ -93,7 +99,7 @@ class FakeCluster:
         class Handler(_Handler):
             api = cluster
 
-        self._server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._server = _Server(("127.0.0.1", 0), Handler)
         self._server.daemon_threads = True
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
@@ -168,8 +174,6 @@ class FakeCluster:
             for other, owned in list(self._objects.items()):
                 if any(owner["uid"] == uid for owner in owned["metadata"].get("ownerReferences", [])):
                     self.remove(*other)
-
-    # --- requests ---------------------------------------------------------------------------------
 
     def create(self, kind: str, body: dict[str, Any], namespace: str = NAMESPACE) -> dict[str, Any]:
         with self.changed:

@@ -42,6 +42,9 @@ class SteppedNode:
     def poll(self) -> None:
         self._world.log.append(("poll", self._world.steps))
 
+    def awaits_publisher(self, _now_s: float) -> bool:
+        return False
+
     def publish(self, _sensors: Any) -> None:
         self._world.log.append(("publish", self._world.steps))
 

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import io
 import json
 import os
@@ -47,7 +48,8 @@ HEAVY = (
 )
 
 
-def _bomb() -> bytes:
+@functools.cache
+def bomb() -> bytes:
     """Returns a zip of some 300 KB that unpacks to 300 MB."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as packed:
@@ -57,7 +59,6 @@ def _bomb() -> bytes:
     return stream.getvalue()
 
 
-BOMB = _bomb()
 DEEP = {
     "array": b'{"diagram": ' + b"[" * 200_000 + b"]" * 200_000 + b"}",
     "object": b'{"diagram": ' + b'{"a":' * 100_000 + b"1" + b"}" * 100_000 + b"}",
@@ -208,7 +209,7 @@ async def zips(site: Site, note: Counter[str]) -> None:
     """Sends a small archive that is large inside; the hostile user's own account may at least upload it."""
     kind, path = "application/octet-stream", "/api/v1/projects/import?filename=Bomb.zip"
     cookie = CHANCE.choice([cookie for cookie in (site.guest, site.user) if cookie])
-    note[await ask(site, "POST", path, BOMB, Content_Type=kind, Cookie=cookie)] += 1
+    note[await ask(site, "POST", path, bomb(), Content_Type=kind, Cookie=cookie)] += 1
 
 
 async def deep(site: Site, note: Counter[str]) -> None:

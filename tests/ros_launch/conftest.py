@@ -9,9 +9,16 @@ Without the variable the report says that this part did not run; with a folder t
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
+
+from tests.translator.conftest import example_files
+from tests.translator.package.patrol import patrol, write
+from tests.translator.package.test_colcon import environment
+from translator import load, to_ros2_package
 
 VARIABLE = "BT_STUDIO_LAUNCH_SOURCES"
 PACKAGES = (
@@ -22,7 +29,11 @@ PACKAGES = (
     "osrf_pycommon",
 )
 GIVEN = os.environ.get(VARIABLE, "")
-collect_ignore = [] if GIVEN else ["test_real_launch.py"]
+collect_ignore = [] if GIVEN else ["test_reading.py", "test_real_launch.py"]
+
+EXAMPLE = "laser_bump_and_go"
+# launch_ros names it for the containers of composed nodes, which no package of ours has.
+COMPOSITION = "class LoadNode:\n    class Request: ...\n    class Response: ...\n"
 
 
 def sources() -> dict[str, Path]:
@@ -32,6 +43,36 @@ def sources() -> dict[str, Path]:
     if missing:
         pytest.fail(f"{VARIABLE}={GIVEN} lacks {', '.join(missing)}", pytrace=False)
     return folders
+
+
+@pytest.fixture(scope="session")
+def workspace(tmp_path_factory):
+    """A workspace with `launch`, `launch_ros`, and packages of ours, built."""
+    folder = tmp_path_factory.mktemp("workspace")
+    for name, source in sources().items():
+        shutil.copytree(source, folder / "src" / name)
+    for package in (patrol(), to_ros2_package(load(example_files(EXAMPLE)))):
+        write(package, folder / "src")
+    services = folder / "placeholder" / "composition_interfaces" / "srv"
+    services.mkdir(parents=True)
+    (services.parent / "__init__.py").touch()
+    (services / "__init__.py").write_text(COMPOSITION)
+    done = subprocess.run(
+        ["colcon", "build"], cwd=folder, env=environment(folder), capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def of_launch(workspace: Path) -> dict[str, str]:
+    """Returns the environment of a program that imports `launch`, which leaves temporary files."""
+    files = workspace / "temporary"
+    files.mkdir(exist_ok=True)
+    return {
+        **environment(workspace),
+        "PYTHONPATH": str(workspace / "placeholder"),
+        "TMPDIR": str(files),
+    }
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -16,37 +15,13 @@ from pathlib import Path
 import pytest
 
 from tests.fakes.launch_modules import launch
-from tests.ros_launch.conftest import sources
-from tests.translator.conftest import example_files
-from tests.translator.package.patrol import NAME, patrol, write
+from tests.ros_launch.conftest import EXAMPLE, of_launch
+from tests.translator.package.patrol import NAME
 from tests.translator.package.test_colcon import OBSERVER, environment
-from translator import load, to_ros2_package
 
 pytestmark = pytest.mark.timeout(600)
 
-EXAMPLE = "laser_bump_and_go"
 DRIVER = Path(__file__).with_name("drive.py")
-# launch_ros names it for the containers of composed nodes, which no package of ours has.
-COMPOSITION = "class LoadNode:\n    class Request: ...\n    class Response: ...\n"
-
-
-@pytest.fixture(scope="module")
-def workspace(tmp_path_factory):
-    """A workspace with `launch`, `launch_ros`, and packages of ours, built."""
-    folder = tmp_path_factory.mktemp("workspace")
-    for name, source in sources().items():
-        shutil.copytree(source, folder / "src" / name)
-    for package in (patrol(), to_ros2_package(load(example_files(EXAMPLE)))):
-        write(package, folder / "src")
-    services = folder / "placeholder" / "composition_interfaces" / "srv"
-    services.mkdir(parents=True)
-    (services.parent / "__init__.py").touch()
-    (services / "__init__.py").write_text(COMPOSITION)
-    done = subprocess.run(
-        ["colcon", "build"], cwd=folder, env=environment(folder), capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return folder
 
 
 class Launch:
@@ -59,7 +34,7 @@ class Launch:
         script = f'source "{workspace}/install/setup.bash" && exec "$@"'
         self.program = subprocess.Popen(
             ["bash", "-c", script, "bash", sys.executable, "-u", str(DRIVER), str(path), *arguments],
-            env={**environment(workspace), "PYTHONPATH": str(workspace / "placeholder")},
+            env=of_launch(workspace),
             cwd=workspace,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

@@ -83,7 +83,7 @@ def test_an_action_that_raises_is_reported_with_its_line(tmp_path, how):
     forward.write_text(forward.read_text().replace("twist = Twist()\n", "twist = Twost()\n"))
     done = studio("run", project, *how, "--duration", "5")
     assert done.returncode == 1
-    assert "actions/Forward.py:19:1" in done.stderr
+    assert "actions/Forward.py:21:1" in done.stderr
     assert "Twost" in done.stderr
     assert "Traceback" not in done.stderr
 

@@ -2,6 +2,7 @@ import math
 
 import py_trees
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -17,10 +18,11 @@ class AtGoal(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.place = None
-        self.subscription = kwargs["node"].create_subscription(Odometry, "/odom", self.on_odometry, 10)
+        self.subscription = node.create_subscription(Odometry, "/odom", self.on_odometry, 10)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         self.place = (odometry.pose.pose.position.x, odometry.pose.pose.position.y)
 
     def update(self):

@@ -3,6 +3,7 @@ import math
 import py_trees
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -20,7 +21,8 @@ class DriveCell(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
-        node, quality = kwargs["node"], qos_profile_sensor_data
+        node: Node = kwargs["node"]
+        quality = qos_profile_sensor_data
         self.scan = self.place = self.start = None
         self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
         self.ears = [
@@ -28,10 +30,10 @@ class DriveCell(py_trees.behaviour.Behaviour):
             node.create_subscription(Odometry, "/odom", self.on_odometry, quality),
         ]
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         self.scan = scan
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         self.place = (odometry.pose.pose.position.x, odometry.pose.pose.position.y)
 
     def initialise(self):

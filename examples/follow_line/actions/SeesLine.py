@@ -1,5 +1,6 @@
 import numpy as np
 import py_trees
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image
 
@@ -18,12 +19,13 @@ class SeesLine(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.image = None
-        self.subscription = kwargs["node"].create_subscription(
+        self.subscription = node.create_subscription(
             Image, "/camera/image_raw", self.on_image, qos_profile_sensor_data
         )
 
-    def on_image(self, image):
+    def on_image(self, image: Image):
         self.image = image
 
     def update(self):

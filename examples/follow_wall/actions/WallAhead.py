@@ -1,6 +1,7 @@
 import math
 
 import py_trees
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -14,12 +15,13 @@ class WallAhead(py_trees.behaviour.Behaviour):
     INPUT_PORTS = {"distance": Port(float, default=0.7, description="How near is near, in m.")}
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.scan = None
-        self.subscription = kwargs["node"].create_subscription(
+        self.subscription = node.create_subscription(
             LaserScan, "/scan", self.on_scan, qos_profile_sensor_data
         )
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         self.scan = scan
 
     def nearest(self, low, high):

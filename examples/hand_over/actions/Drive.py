@@ -3,6 +3,7 @@ import math
 import py_trees
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -18,12 +19,13 @@ class Drive(py_trees.behaviour.Behaviour):
 
     def setup(self, **kwargs):
         # Each robot has topics of its own: /cmd_vel of the first, /helper/cmd_vel of the second.
-        node, robot = kwargs["node"], get_input(self, "robot")
+        node: Node = kwargs["node"]
+        robot = get_input(self, "robot")
         self.place = self.start = None
         self.publisher = node.create_publisher(Twist, f"{robot}/cmd_vel", 10)
         self.subscription = node.create_subscription(Odometry, f"{robot}/odom", self.on_odometry, 10)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         self.place = (odometry.pose.pose.position.x, odometry.pose.pose.position.y)
 
     def initialise(self):

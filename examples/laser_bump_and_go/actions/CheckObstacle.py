@@ -1,6 +1,7 @@
 import math
 
 import py_trees
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -17,12 +18,13 @@ class CheckObstacle(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.scan = None
-        self.subscription = kwargs["node"].create_subscription(
+        self.subscription = node.create_subscription(
             LaserScan, "/scan", self.on_scan, qos_profile_sensor_data
         )
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         self.scan = scan
 
     def update(self):

@@ -1,5 +1,6 @@
 import py_trees
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -10,7 +11,8 @@ class Forward(py_trees.behaviour.Behaviour):
     INPUT_PORTS = {"lin_speed": Port(float, default=0.3, description="Speed ahead in m/s.")}
 
     def setup(self, **kwargs):
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
+        node: Node = kwargs["node"]
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
 
     def initialise(self):
         print("The way is free: driving ahead")

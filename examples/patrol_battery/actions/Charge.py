@@ -1,4 +1,5 @@
 import py_trees
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input, set_output
 
@@ -10,7 +11,7 @@ class Charge(py_trees.behaviour.Behaviour):
     INOUT_PORTS = {"battery": Port(float, default="{battery}", description="Its charge, from 0 to 100.")}
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]
+        self.node: Node = kwargs["node"]
 
     def now_s(self):
         return self.node.get_clock().now().nanoseconds / 1e9

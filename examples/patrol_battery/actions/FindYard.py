@@ -3,6 +3,7 @@ import math
 
 import py_trees
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -29,17 +30,17 @@ class FindYard(py_trees.behaviour.Behaviour):
         # A point on the floor is a complex number here: adding moves it, multiplying turns it.
         self.robot, self.heading, self.is_turning = None, 0.0, True
         self.middle, self.turned = 0j, 0.0
-        node = kwargs["node"]
+        node: Node = kwargs["node"]
         self.odometry = node.create_subscription(Odometry, "/odom", self.on_odometry, 10)
         self.scan = node.create_subscription(LaserScan, "/scan", self.on_scan, qos_profile_sensor_data)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
         self.robot = complex(position.x, position.y)
         self.heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         self.is_turning = abs(odometry.twist.twist.angular.z) > 0.2
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         # While it turns, the heading is older than the scan.
         if self.robot is None or self.is_turning:
             return

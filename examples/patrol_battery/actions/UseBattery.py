@@ -1,4 +1,5 @@
 import py_trees
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input, set_output
 
@@ -11,7 +12,7 @@ class UseBattery(py_trees.behaviour.Behaviour):
     INOUT_PORTS = {"battery": Port(float, default="{battery}", description="Its charge, from 0 to 100.")}
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]
+        self.node: Node = kwargs["node"]
         self.last_s = None
 
     def update(self):

@@ -3,6 +3,7 @@ import math
 import py_trees
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -16,12 +17,13 @@ class DriveDistance(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.place = None
         self.start = None
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
-        self.subscription = kwargs["node"].create_subscription(Odometry, "/odom", self.on_odometry, 10)
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+        self.subscription = node.create_subscription(Odometry, "/odom", self.on_odometry, 10)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         position = odometry.pose.pose.position
         self.place = (position.x, position.y)
 

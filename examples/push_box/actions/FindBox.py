@@ -2,6 +2,7 @@ import math
 
 import py_trees
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -17,18 +18,19 @@ class FindBox(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
-        node, quality = kwargs["node"], qos_profile_sensor_data
+        node: Node = kwargs["node"]
+        quality = qos_profile_sensor_data
         self.scan = self.pose = None
         self.ears = [
             node.create_subscription(LaserScan, "/scan", self.on_scan, quality),
             node.create_subscription(Odometry, "/odom", self.on_odometry, quality),
         ]
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         # The place from which was measured belongs to the measurement.
         self.scan, self.seen_from = scan, self.pose
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         place, turn = odometry.pose.pose.position, odometry.pose.pose.orientation
         self.pose = (place.x, place.y, 2 * math.atan2(turn.z, turn.w))
 

@@ -3,6 +3,7 @@ import math
 import py_trees
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -16,11 +17,12 @@ class RotateToHeading(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.heading = None
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
-        self.subscription = kwargs["node"].create_subscription(Odometry, "/odom", self.on_odometry, 10)
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+        self.subscription = node.create_subscription(Odometry, "/odom", self.on_odometry, 10)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         q = odometry.pose.pose.orientation
         self.heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
 

@@ -1,5 +1,6 @@
 import py_trees
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -13,7 +14,7 @@ class LookAround(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]
+        self.node: Node = kwargs["node"]
         self.began_s = 0.0
         self.publisher = self.node.create_publisher(Twist, "/cmd_vel", 10)
 

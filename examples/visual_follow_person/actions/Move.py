@@ -1,5 +1,6 @@
 import py_trees
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -23,7 +24,8 @@ class Move(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
+        node: Node = kwargs["node"]
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
 
     def initialise(self):
         print("Person in sight: following")

@@ -53,7 +53,7 @@ COUNTING = """
 def hashing_forward(more: str = "") -> str:
     """Returns the action *Forward*, which writes a hash of all that it hears to the blackboard."""
     source = (ROOT / "examples/laser_bump_and_go/actions/Forward.py").read_text()
-    publisher = 'self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)\n'
+    publisher = 'self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)\n'
     publish = "        self.publisher.publish(twist)\n"
     ports = '    INPUT_PORTS = {"lin_speed"'
     for old, new in (

@@ -2,6 +2,7 @@ import math
 
 import py_trees
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -17,14 +18,15 @@ class AvoidObstacles(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.scan = None
         self.turning = 0
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
-        self.subscription = kwargs["node"].create_subscription(
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+        self.subscription = node.create_subscription(
             LaserScan, "/scan", self.on_scan, qos_profile_sensor_data
         )
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         self.scan = scan
 
     def nearest(self, low, high):

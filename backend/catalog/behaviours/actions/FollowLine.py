@@ -1,6 +1,7 @@
 import numpy as np
 import py_trees
 from geometry_msgs.msg import Twist
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image
 
@@ -16,15 +17,16 @@ class FollowLine(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.image = None
         self.offset = 0.0
         self.lost = 0
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
-        self.subscription = kwargs["node"].create_subscription(
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+        self.subscription = node.create_subscription(
             Image, "/camera/image_raw", self.on_image, qos_profile_sensor_data
         )
 
-    def on_image(self, image):
+    def on_image(self, image: Image):
         self.image = image
 
     def initialise(self):

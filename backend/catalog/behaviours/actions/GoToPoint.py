@@ -3,6 +3,7 @@ import math
 import py_trees
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -18,11 +19,12 @@ class GoToPoint(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.pose = None
-        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
-        self.subscription = kwargs["node"].create_subscription(Odometry, "/odom", self.on_odometry, 10)
+        self.publisher = node.create_publisher(Twist, "/cmd_vel", 10)
+        self.subscription = node.create_subscription(Odometry, "/odom", self.on_odometry, 10)
 
-    def on_odometry(self, odometry):
+    def on_odometry(self, odometry: Odometry):
         position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         self.pose = (position.x, position.y, heading)

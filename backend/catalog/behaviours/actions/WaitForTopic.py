@@ -1,6 +1,7 @@
 import importlib
 
 import py_trees
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 
 from tree_gardener.ports import Port, get_input
@@ -15,7 +16,7 @@ class WaitForTopic(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]
+        self.node: Node = kwargs["node"]
         self.subscription = None
         self.arrived = False
         self.began_s = 0.0
@@ -27,7 +28,7 @@ class WaitForTopic(py_trees.behaviour.Behaviour):
         self.arrived = False
         self.began_s = self.now_s()
 
-    def on_message(self, _message):
+    def on_message(self, _message: message_class):
         self.arrived = True
 
     def subscribe(self, topic):

@@ -7,6 +7,8 @@ import math
 import re
 from enum import Enum
 
+from tree_gardener.type_words import TYPE_WORDS
+
 _INTEGER = re.compile(r"-?[0-9]+")
 _UNSIGNED = re.compile(r"[0-9]+")
 _REAL = re.compile(
@@ -18,18 +20,6 @@ _STATUSES = {"SUCCESS", "FAILURE", "SKIPPED", "RUNNING"}
 _NAMES = {"bool": _BOOLEANS, "status": _STATUSES}
 _INT_RANGE = (-(2**31), 2**31 - 1)
 _UINT_RANGE = (0, 2**32 - 1)
-
-DESCRIPTIONS = {
-    "int": "a whole number",
-    "uint": "a whole number, 0 or more",
-    "int64": "a whole number of 64 bits",
-    "double": "a number",
-    "bool": "true or false",
-    "status": "SUCCESS, FAILURE, SKIPPED or RUNNING",
-    "string": "a text",
-    "script": "a script",
-    "any": "a value",
-}
 
 
 class Fit(Enum):
@@ -76,7 +66,7 @@ def describe(type_: str) -> str:
         return f"one of {', '.join(names)}"
     if type_.startswith("list["):
         return f"a list such as 1;2;3, each {describe(type_[5:-1])}"
-    return DESCRIPTIONS.get(type_, type_)
+    return TYPE_WORDS.get(type_, type_)
 
 
 def outside(type_: str, text: str) -> tuple[str, str, str] | None:

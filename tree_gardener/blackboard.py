@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, MutableMapping
 from typing import Any, Final
 
 from tree_gardener.errors import PortError
+from tree_gardener.type_words import type_words
 from tree_gardener.values import (
     ANY,
     POLYMORPHIC,
@@ -156,7 +157,8 @@ class Blackboard(MutableMapping[str, Any]):
                 if kind is not None and kind.is_strong and entry.is_strong and entry.type is not kind:
                     assert entry.type is not None
                     raise PortError(
-                        f"entry '{key}' was declared as {entry.type.name} and is used as {kind.name} now"
+                        f"entry '{key}' was declared as {type_words(entry.type.name)}"
+                        f" and is used as {type_words(kind.name)} now"
                     )
                 return entry
             outer = board.remapping.get(key)
@@ -207,7 +209,7 @@ class Blackboard(MutableMapping[str, Any]):
             try:
                 value = entry.type.convert(value)
             except ConversionError as error:
-                raise PortError(f"entry '{key}' is of type {entry.type.name}: {error}") from None
+                raise PortError(f"entry '{key}' holds {type_words(entry.type.name)}: {error}") from None
         entry.write(value)
 
     def __delitem__(self, key: str) -> None:
@@ -239,7 +241,7 @@ def _kept_kind(entry: Entry, value: Any) -> Any:
     if isinstance(old, float):
         return float(number)
     if isinstance(number, float) and not number.is_integer():
-        raise PortError(f"entry '{entry.key}' holds an integer, and {number} is not one")
+        raise PortError(f"entry '{entry.key}' holds a whole number, and {number} is not one")
     return value if isinstance(value, bool) else int(number)
 
 
@@ -248,11 +250,12 @@ def _converted(entry: Entry, value: Any, kind: ValueType, declared: ValueType) -
     try:
         # Numbers convert to numbers without loss, and a string is parsed; anything else is an error.
         if kind is not STRING and (declared is STRING or isinstance(entry.value, str)):
-            raise ConversionError(f"a value of type {kind.name} is not a string")
+            raise ConversionError(f"{type_words(kind.name)} is not a text")
         return declared.parse(value) if kind is STRING else declared.convert(value)
     except ConversionError as error:
         raise PortError(
-            f"entry '{entry.key}' was declared as {declared.name} and is written as {kind.name}: {error}"
+            f"entry '{entry.key}' was declared as {type_words(declared.name)}"
+            f" and is written as {type_words(kind.name)}: {error}"
         ) from None
 
 

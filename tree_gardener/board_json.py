@@ -14,6 +14,7 @@ from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.errors import PortError
 from tree_gardener.registered import TYPE, registered, registered_name
 from tree_gardener.status import Status
+from tree_gardener.type_words import type_words
 from tree_gardener.values import (
     BOOL,
     BY_NAME,
@@ -26,8 +27,8 @@ from tree_gardener.values import (
     ConversionError,
     ValueType,
     as_number,
-    type_name_of,
     value_type,
+    value_words,
 )
 
 if TYPE_CHECKING:
@@ -176,5 +177,5 @@ def _list_of(documents: list[Any]) -> tuple[Any, ValueType | None] | None:
     wanted: Any = python if kind in (STRING, BOOL) else (int, float)
     for each in documents:
         if not isinstance(each, wanted):
-            raise ConversionError(f"a list of {kind.name} holds a value of type {type_name_of(each)}")
+            raise ConversionError(f"a list, each {type_words(kind.name)}, holds {value_words(each)}")
     return [python(each) for each in documents], BY_NAME[f"list[{kind.name}]"]

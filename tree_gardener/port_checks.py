@@ -6,6 +6,7 @@ from tree_gardener.blackboard import Blackboard
 from tree_gardener.errors import ScriptError
 from tree_gardener.ports import OUTPUT, PortSpec, pointer_key
 from tree_gardener.script import compile_script
+from tree_gardener.type_words import type_words
 from tree_gardener.values import ANY, STATUS, STRING, ConversionError
 
 if TYPE_CHECKING:
@@ -27,7 +28,8 @@ def check_text(node_class: "type[Node]", spec: PortSpec, text: str) -> PortProbl
         is_bare = text[0] == "{" and text[-1] == "}"
         if is_bare or not spec.type.is_strong or spec.type in (STRING, STATUS):
             return None
-        message = f"the port '{spec.name}' of type {spec.type.name} takes no blanks round '{text.strip()}'"
+        taken = type_words(spec.type.name)
+        message = f"the port '{spec.name}' takes {taken}, and no blanks round '{text.strip()}'"
         return PortProblem("TG303", message, "remove them")
     if spec.direction == OUTPUT:
         message = f"the output port '{spec.name}' needs an entry, not '{text}'"
@@ -45,7 +47,7 @@ def _check_type(spec: PortSpec, text: str) -> PortProblem | None:
         if text.strip()[:1] == "{":
             message = f"'{text}' opens a brace and does not close it"
             return PortProblem("TG303", message, "an entry is written {key}")
-        message = f"the port '{spec.name}' is of type {spec.type.name}: {error}"
+        message = f"the port '{spec.name}' takes {type_words(spec.type.name)}: {error}"
         return PortProblem("TG305", message, "write a literal of that type, or a {key}")
     return None
 
@@ -88,6 +90,7 @@ def declare_entry(
         and entry.type is not spec.type
         and entry.type is not STRING
     ):
-        message = f"the entry '{key}' is of type {entry.type.name} elsewhere and {spec.type.name} here"
+        there, here = type_words(entry.type.name), type_words(spec.type.name)
+        message = f"the entry '{key}' is {there} elsewhere and {here} here"
         return PortProblem("TG306", message, "use two entries, or ports of one type")
     return None

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.blackboard import EMPTY
 from tree_gardener.errors import PortError
+from tree_gardener.type_words import type_words
 from tree_gardener.values import ANY, ConversionError, ValueType, value_type
 
 if TYPE_CHECKING:
@@ -242,7 +243,7 @@ def write_port(node: "Node", name: str, value: Any) -> None:
     try:
         value = spec.type.convert(value)
     except ConversionError as error:
-        raise PortError(f"port '{name}' carries {spec.type.name}: {error}") from None
+        raise PortError(f"port '{name}' takes {type_words(spec.type.name)}: {error}") from None
     node.board.set(key, value, spec.type, node.uid)
 
 

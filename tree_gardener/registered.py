@@ -18,7 +18,8 @@ import typing
 from collections.abc import Callable, Mapping
 from typing import Any, Final, TypeVar, overload
 
-from tree_gardener.values import ConversionError, ValueType, set_type, type_name_of, value_type
+from tree_gardener.type_words import type_words
+from tree_gardener.values import ConversionError, ValueType, set_type, value_type, value_words
 
 C = TypeVar("C", bound=type)
 
@@ -146,7 +147,7 @@ def _kind(
             return value
         if isinstance(value, str):
             return parse(value)
-        raise ConversionError(f"a value of type {type_name_of(value)} is not a {name}")
+        raise ConversionError(f"{value_words(value)} is not a {name}")
 
     return ValueType(name, parse, convert, from_json=read if from_json is not None else None)
 
@@ -160,7 +161,7 @@ def _checked(cls: type, name: str, make: Callable[[], Any]) -> Any:
     except Exception as error:
         raise ConversionError(f"no {name}: {type(error).__name__}: {error}") from error
     if not isinstance(value, cls):
-        raise ConversionError(f"the converter of {name} returned a value of type {type_name_of(value)}")
+        raise ConversionError(f"the converter of {name} returned {value_words(value)}")
     return value
 
 
@@ -194,7 +195,7 @@ def _field(name: str, annotation: Any, document: Any) -> Any:
     if kind.from_json is not None:
         return kind.from_json(document)
     if isinstance(document, str) and annotation is not str and kind.is_strong:
-        raise ConversionError(f"the field '{name}' is of type {kind.name}, not a text")
+        raise ConversionError(f"the field '{name}' takes {type_words(kind.name)}, not a text")
     try:
         return kind.convert(document)
     except ConversionError as error:

@@ -18,6 +18,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from tree_gardener.status import Status
+from tree_gardener.type_words import type_words
 
 INT32: Final = (-(2**31), 2**31 - 1)
 UINT32: Final = (0, 2**32 - 1)
@@ -85,7 +86,7 @@ def to_text(value: Any) -> str:
         return format_number(number)
     write = _TO_TEXT.get(type(value))
     if write is None:
-        raise ConversionError(f"a value of type {type_name_of(value)} is not a string")
+        raise ConversionError(f"{value_words(value)} is not a text")
     return write(value)
 
 
@@ -110,7 +111,7 @@ def _integer(limits: tuple[int, int], name: str) -> ValueType:
     def parse(text: str) -> int:
         match = pattern.match(text)
         if match is None:
-            raise ConversionError(f"'{text}' is not an integer")
+            raise ConversionError(f"'{text}' is not a whole number")
         return in_range(int(match.group()))
 
     def convert(value: Any) -> int:
@@ -118,10 +119,10 @@ def _integer(limits: tuple[int, int], name: str) -> ValueType:
         if number is None:
             if isinstance(value, str):
                 return parse(value)
-            raise ConversionError(f"a value of type {type_name_of(value)} is not an integer")
+            raise ConversionError(f"{value_words(value)} is not a whole number")
         if isinstance(number, float):
             if not number.is_integer():
-                raise ConversionError(f"{number} is not an integer")
+                raise ConversionError(f"{number} is not a whole number")
             number = int(number)
         return in_range(number)
 
@@ -162,9 +163,9 @@ def checked_double(text: str) -> float:
     """Converts a real number; refuses one that no double can hold, as ``from_chars`` does."""
     number = float(text.partition("(")[0])
     if math.isinf(number) and text[-1].isdigit():
-        raise ConversionError(f"{text} is too large: a double ends at {sys.float_info.max:.3g}")
+        raise ConversionError(f"{text} is too large: the largest number is {sys.float_info.max:.3g}")
     if number == 0.0 and re.search("[1-9]", text.lower().partition("e")[0]):
-        raise ConversionError(f"{text} is too small: a double begins at {math.ulp(0.0):.3g}")
+        raise ConversionError(f"{text} is too small: the smallest above 0 is {math.ulp(0.0):.3g}")
     return number
 
 
@@ -174,7 +175,7 @@ def _convert_double(value: Any) -> float:
         return float(number)
     if isinstance(value, str):
         return parse_double(value)
-    raise ConversionError(f"a value of type {type_name_of(value)} is not a number")
+    raise ConversionError(f"{value_words(value)} is not a number")
 
 
 def parse_bool(text: str) -> bool:
@@ -190,10 +191,10 @@ def to_bool(value: Any) -> bool:
     """Casts to bool: an integer must be 0 or 1, a double must not be negative, a string is not a bool."""
     number = as_number(value)
     if number is None:
-        raise ConversionError(f"a value of type {type_name_of(value)} is not true or false")
+        raise ConversionError(f"{value_words(value)} is not true or false")
     if isinstance(number, int):
         if number not in (0, 1):
-            raise ConversionError(f"the integer {number} is neither 0 nor 1")
+            raise ConversionError(f"the whole number {number} is neither 0 nor 1")
     elif number < 0:
         raise ConversionError(f"the negative number {number} is neither true nor false")
     return bool(number)
@@ -276,7 +277,7 @@ def _list_of(item: ValueType) -> ValueType:
             return parse(value)
         if isinstance(value, (list, tuple, collections.deque)):
             return value
-        raise ConversionError(f"a value of type {type_name_of(value)} is not a list")
+        raise ConversionError(f"{value_words(value)} is not a list")
 
     return ValueType(f"list[{item.name}]", parse, convert)
 
@@ -378,7 +379,7 @@ def _class(cls: type) -> ValueType:
     def convert(value: Any) -> Any:
         if isinstance(value, cls):
             return value
-        raise ConversionError(f"a value of type {type_name_of(value)} is not a {cls.__qualname__}")
+        raise ConversionError(f"{value_words(value)} is not a {cls.__qualname__}")
 
     return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
 
@@ -411,3 +412,8 @@ def type_name_of(value: Any) -> str:
     if issubclass(kind, str):
         return "string"
     return kind.__qualname__
+
+
+def value_words(value: Any) -> str:
+    """Returns what a value is, in words: ``a whole number``, ``a value of type Spot``."""
+    return type_words(type_name_of(value))

@@ -107,15 +107,15 @@ def test_it_is_a_mapping() -> None:
 def test_the_first_typed_use_fixes_the_type() -> None:
     board = Blackboard()
     board.set("n", 1, INT)
-    with pytest.raises(PortError, match="declared as int and is used as double"):
+    with pytest.raises(PortError, match="declared as a whole number and is used as a number"):
         board.create("n", DOUBLE)
     board.set("n", 2.0, DOUBLE)
     assert board["n"] == 2
-    with pytest.raises(PortError, match="is not an integer"):
+    with pytest.raises(PortError, match="is not a whole number"):
         board.set("n", 2.5, DOUBLE)
     board.set("n", "7", STRING)
     assert board["n"] == 7
-    with pytest.raises(PortError, match="of type int"):
+    with pytest.raises(PortError, match="holds a whole number"):
         board["n"] = "text"
     board["n"] = 8.0
     assert board["n"] == 8
@@ -124,7 +124,7 @@ def test_the_first_typed_use_fixes_the_type() -> None:
 def test_a_string_entry_takes_no_number() -> None:
     board = Blackboard()
     board.create("s", STRING).write("text")
-    with pytest.raises(PortError, match="declared as string"):
+    with pytest.raises(PortError, match="declared as a text"):
         board.set("s", 1, INT)
 
 

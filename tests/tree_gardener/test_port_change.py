@@ -143,10 +143,10 @@ def test_an_older_action_has_the_text_where_it_reads_its_ports_later() -> None:
 @pytest.mark.parametrize(
     ("port", "text", "code", "message"),
     [
-        ("speed", "quick", "TG305", "the port 'speed' is of type double: 'quick' is not a number"),
+        ("speed", "quick", "TG305", "the port 'speed' takes a number: 'quick' is not a number"),
         ("speed", "{open", "TG303", "'{open' opens a brace and does not close it"),
         ("told", "1", "TG304", "the output port 'told' needs an entry, not '1'"),
-        ("told", "{name}", "TG306", "the entry 'name' is of type int elsewhere and double here"),
+        ("told", "{name}", "TG306", "the entry 'name' is a whole number elsewhere and a number here"),
         ("needed", None, "TG302", "the port 'needed' of Reading needs a value"),
         ("other", "1", "TG301", "Reading has no port 'other'"),
     ],

@@ -112,7 +112,7 @@ _REFUSED: Final = {
     "TG606": "rule-without-children",
 }
 _BLANK = re.compile(r"""=\s*(?:"[^"]*[\t\n][^"]*"|'[^']*[\t\n][^']*')""")
-_OPERAND = re.compile(r"'[-+*/]=' does not work on .* and a value of type (?!int|double|string|bool)")
+_OPERAND = re.compile(r"'[-+*/]=' does not work on .* and a value of type ")
 
 
 def of_refusal(case: Mapping[str, Any], error: LoadError) -> str:

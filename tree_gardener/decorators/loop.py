@@ -6,6 +6,7 @@ from tree_gardener.errors import TickError
 from tree_gardener.node import Decorator
 from tree_gardener.ports import pointer_key
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
+from tree_gardener.type_words import type_words
 from tree_gardener.values import ConversionError
 
 
@@ -69,7 +70,8 @@ class Loop(Decorator):
         assert self.manifest is not None
         kind = self.manifest["queue"].type
         if entry.is_strong and entry.type_name != kind.name and not isinstance(entry.value, str):
-            message = f"port 'queue': the entry '{key}' is of type {entry.type_name}, not {kind.name}"
+            held, wanted = type_words(entry.type_name), type_words(kind.name)
+            message = f"port 'queue': the entry '{key}' holds {held}, not {wanted}"
             raise TickError(self, message)
         if isinstance(entry.value, collections.deque):
             self.queue = entry.value

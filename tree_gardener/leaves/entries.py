@@ -5,6 +5,7 @@ from tree_gardener.errors import PortError, TickError
 from tree_gardener.node import SyncLeaf
 from tree_gardener.ports import entry_key
 from tree_gardener.status import FAILURE, SUCCESS, Status
+from tree_gardener.type_words import type_words
 from tree_gardener.values import ANY, DOUBLE, INT_64, STRING, ConversionError, ValueType, to_text
 
 
@@ -44,7 +45,8 @@ class SetBlackboard(SyncLeaf):
             value = self.parsed(value, target.type)
         elif target.is_strong and target.type is not _copied_type(value, kind):
             assert target.type is not None
-            message = f"the entry '{key}' is of type {target.type.name} and takes no copy of '{pointer}'"
+            held = type_words(target.type.name)
+            message = f"the entry '{key}' holds {held} and takes no copy of '{pointer}'"
             raise TickError(self, message)
         self.board.set(key, value, None, self.uid)
         return SUCCESS

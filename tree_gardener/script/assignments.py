@@ -7,6 +7,7 @@ from tree_gardener.errors import ScriptError
 from tree_gardener.script.environment import Environment
 from tree_gardener.script.operators import ARITHMETIC, kind_of, real, text_to_number
 from tree_gardener.script.syntax import Assignment, Binary, Name, Span
+from tree_gardener.type_words import type_words
 from tree_gardener.values import ANY, INT64, ConversionError, as_number, format_number
 
 
@@ -64,7 +65,8 @@ def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) ->
         try:
             return entry.type.parse(value)
         except ConversionError as error:
-            raise ScriptError(span, f"entry '{entry.key}' is of type {entry.type.name}: {error}") from None
+            held = type_words(entry.type.name)
+            raise ScriptError(span, f"entry '{entry.key}' holds {held}: {error}") from None
     return _copied(entry, value, span)
 
 
@@ -86,7 +88,9 @@ def _copied(entry: Entry, value: Any, span: Span) -> Any:
         return real(number, span)
     if isinstance(number, float) and not (number.is_integer() and INT64[0] <= number <= INT64[1]):
         raise ScriptError(
-            span, f"{format_number(number)} cannot be assigned to '{entry.key}', which holds an integer", ""
+            span,
+            f"{format_number(number)} does not fit into '{entry.key}', which holds a whole number",
+            "",
         )
     whole = int(number)
     return bool(whole) if isinstance(old, bool) and whole in (0, 1) else whole

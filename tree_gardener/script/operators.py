@@ -20,7 +20,7 @@ from tree_gardener.values import (
     format_number,
     parse_double,
     to_bool,
-    type_name_of,
+    value_words,
 )
 
 TOLERANCE: Final = 1.1920928955078125e-07  # FLT_EPSILON, for == and != only
@@ -46,19 +46,19 @@ def _number(value: Any, expression: Expression) -> float:
 def real(number: float, span: Span) -> float:
     """Returns a number as the double that scripts compute with."""
     if isinstance(number, int) and abs(number) >= EXACT:
-        hint = f"scripts compute with integers below {EXACT}"
+        hint = f"scripts compute with whole numbers below {EXACT}"
         raise ScriptError(span, f"{number} is too large to compute with", hint)
     return float(number)
 
 
 def kind_of(value: Any) -> str:
     """Describes the type of a value in messages."""
-    return "an entry without a value" if value is EMPTY else f"a value of type {type_name_of(value)}"
+    return "an entry without a value" if value is EMPTY else value_words(value)
 
 
 def _complement(value: float) -> float:
     if value < -TWO_TO_63 or value > TWO_TO_63:
-        raise ConversionError(f"'~' works on integers of 64 bits, not on {format_number(value)}")
+        raise ConversionError(f"'~' works on whole numbers of 64 bits, not on {format_number(value)}")
     # NaN, and doubles from 2^63 on, become the smallest integer, as x86's conversion does.
     return float(~int(value if value < TWO_TO_63 else -TWO_TO_63))
 
@@ -125,7 +125,7 @@ def _bits(symbol: str, span: Span, left: Any, right: Any) -> float:
     if not all(
         number.is_integer() and -TWO_TO_63 <= number < TWO_TO_63 for number in (real(a, span), real(b, span))
     ):
-        raise ScriptError(span, f"'{symbol}' works on integers only, of 64 bits")
+        raise ScriptError(span, f"'{symbol}' works on whole numbers only, of 64 bits")
     return float(_BITS[symbol](int(a), int(b)))
 
 

@@ -13,6 +13,7 @@ from tree_gardener.swap.capturing import behaviour_of, capture, scopes_of
 from tree_gardener.swap.plan import Fate, Plan, plan
 from tree_gardener.swap.state import Key, TreeState, keys_of
 from tree_gardener.tree import Tree
+from tree_gardener.type_words import type_words
 
 CARRY_OVER = "carry_over"
 """The method of an action that takes over from the object of its changed class, which is the argument."""
@@ -28,8 +29,9 @@ class SwapRefusedError(Exception):
     def __init__(self, found: Plan) -> None:
         first = found.conflicts[0]
         scope = f" in '{first.scope}'" if first.scope else ""
+        old, new = type_words(first.old), type_words(first.new)
         super().__init__(
-            f"the entry '{first.key}'{scope} is of type {first.old} and would be {first.new}"
+            f"the entry '{first.key}'{scope} holds {old} and would hold {new}"
             + (f", and {len(found.conflicts) - 1} more" if len(found.conflicts) > 1 else "")
         )
         self.plan = found

@@ -94,7 +94,7 @@ class Act(py_trees.behaviour.Behaviour):
         bad = await client.ask("set_blackboard", {"scope": "nowhere", "key": "gain", "value": 1})
         assert bad["code"] == "bad_data"
         bad = await client.ask("set_blackboard", {"scope": "", "key": "count", "value": "many"})
-        assert bad["message"] == "The entry 'count' is of type int: 'many' is not an integer."
+        assert bad["message"] == "The entry 'count' holds a whole number: 'many' is not a whole number."
         at = len(client.events)
         assert await client.ask("set_blackboard", {"scope": "", "key": "pace", "value": 2}) == "ack"
         pace = (await client.event("blackboard", after=at))["data"]["entries"][0]

@@ -41,7 +41,7 @@ def run(text: str, board: Blackboard | None = None) -> Any:
     [
         ("nothing + 1", "there is no entry 'nothing'"),
         ("'a' - 1", "'-' does not work"),
-        ("1.5 & 1", "integers only"),
+        ("1.5 & 1", "whole numbers only"),
         ("'a' | 1", "does not work"),
         ("3 := 4", "only a blackboard entry"),
         ("x = 4", "create it with :="),
@@ -51,7 +51,7 @@ def run(text: str, board: Blackboard | None = None) -> Any:
         ("x := 1; x += 'a'", "does not work"),
         ("x := 'a'; x += 1", "needs a number"),
         ("x := 'a'; x := 1", "cannot be assigned"),
-        ("x := 1; x := 1.5", "holds an integer"),
+        ("x := 1; x := 1.5", "holds a whole number"),
         ("-'a'", "a number is needed"),
         ("@@x := 1", "has no meaning|'@'"),
     ],
@@ -70,7 +70,7 @@ def test_values_keep_the_kind_of_their_entry() -> None:
     assert run("flag := 3", board) == 3
     board.unset("typed")
     board.create("typed", INT)
-    with pytest.raises(ScriptError, match="of type int"):
+    with pytest.raises(ScriptError, match="holds a whole number"):
         run("typed := 'x'", board)
 
 

@@ -170,7 +170,7 @@ def test_an_entry_of_another_type_is_named_and_nothing_happens(calls):
     swap = Swap(
         old, tree_of('<Sequence _bts_id="s"><Text _bts_id="t" ticks="{ticks}"/></Sequence>', Text=Text)
     )
-    with pytest.raises(SwapRefusedError, match="the entry 'ticks' is of type int and would be string"):
+    with pytest.raises(SwapRefusedError, match="'ticks' holds a whole number and would hold a text"):
         swap.run()
     old.tick_exactly_once()
     assert calls == ["drive 2 at 1.0"]

@@ -90,7 +90,7 @@ def test_the_value_of_the_blackboard_is_that_of_the_port():
     }
     assert sentences(test, suite(body)) == []
     wrong = sentences({**test, "blackboard": {"cycles": "many"}}, suite(body))
-    assert wrong[0].startswith("blackboard: entry 'cycles' is of type int")
+    assert wrong[0].startswith("blackboard: entry 'cycles' holds a whole number")
 
 
 def test_ports_of_the_tree_have_their_defaults():

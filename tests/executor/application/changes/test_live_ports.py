@@ -64,6 +64,6 @@ def test_a_wrong_text_is_refused_with_its_place() -> None:
     assert error is not None
     assert (error.code, error.message, said) == (
         "bad_port",
-        "'a/go': the port 'speed' is of type double: 'fast' is not a number.",
+        "'a/go': the port 'speed' takes a number: 'fast' is not a number.",
         [],
     )

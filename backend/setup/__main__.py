@@ -293,7 +293,9 @@ def ensure_debian_packages() -> None:
     say(f"installing the Debian packages {' '.join(missing)} on this machine, for the tests …")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     subprocess.run(["apt-get", "update", "-q"], env=quiet, check=False, stdout=subprocess.DEVNULL)
-    if subprocess.run(install, env=quiet, check=False, stdout=subprocess.DEVNULL).returncode:
+    # Another installation on this machine, such as the set-up of a second clone, has ten minutes to end.
+    patient = [*install, "-o", "DPkg::Lock::Timeout=600"]
+    if subprocess.run(patient, env=quiet, check=False, stdout=subprocess.DEVNULL).returncode:
         stop(f"`{' '.join(install)}` failed; what it says stands above.")
 
 

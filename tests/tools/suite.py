@@ -15,7 +15,7 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from tests.tools.lanes import PASSED, TESTS_FAILED, Lane
 from tests.tools.measuring.install import noting
@@ -24,10 +24,18 @@ from tests.tools.selection import plugin, tree
 from tests.tools.selection.choose import Reason, Selection, choose, core_of, core_patterns
 from tests.tools.selection.inputs import Inputs, import_graph
 from tests.tools.selection.shards import Shard, ShardError, share, store
-from tests.tools.selection.table import ROOT, Table, TableError, read, read_executed, read_loaded
+from tests.tools.selection.table import (
+    ROOT,
+    Executed,
+    Table,
+    TableError,
+    read,
+    read_executed,
+    read_loaded,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 # Browser tests, waiting ones, and two workers beside them: a half of all tests waits for processes.
 WORKERS: Final = 4
@@ -44,21 +52,32 @@ def main(arguments: list[str]) -> int:
         table = _table(is_needed=not options.full)
         if options.full:
             return _full(shard, table, files, options.counts, rest)
-        selection = select(table, files, os.environ.get("SAMPLE", ""))
+        known = Known(read_loaded() if table.tests else {}, read_executed())
     except (TableError, ShardError) as error:
         print(f"tests: {error}", file=sys.stderr)
         return 2
-    for line in described(selection, table):
-        print(line, flush=True)
-    file = ROOT / "var" / "selection.json"
-    selection.save(file)
-    environment = {plugin.VARIABLE: str(file)}
-    return run([*lint(), *page(Shard(1, 1)), python(rest, environment)])
+
+    def chosen() -> Lane:
+        selection = select(table, files, known, os.environ.get("SAMPLE", ""))
+        for line in described(selection, table):
+            print(line, flush=True)
+        file = ROOT / "var" / "selection.json"
+        selection.save(file)
+        return python(rest, {plugin.VARIABLE: str(file)})
+
+    return run([*lint(), *page(Shard(1, 1))], chosen)
 
 
-def select(table: Table, files: dict[str, str], sample: str) -> Selection:
+class Known(NamedTuple):
+    """What earlier runs noted of the files of tests."""
+
+    loaded: Mapping[str, frozenset[str]]
+    executed: Mapping[str, Executed]
+
+
+def select(table: Table, files: dict[str, str], known: Known, sample: str) -> Selection:
     """Chooses the tests of the working tree."""
-    inputs = Inputs(files, import_graph(), read_loaded() if table.tests else {}, executed=read_executed())
+    inputs = Inputs(files, import_graph(), known.loaded, executed=known.executed)
     return choose(
         table,
         core_of(core_patterns()),
@@ -96,12 +115,21 @@ def _full(shard: Shard, table: Table, files: dict[str, str], counts: str, rest: 
     return store(measured(folder, files), seconds, table, files, shard, is_complete=is_complete) or result
 
 
-def run(lanes: list[Lane]) -> int:
-    """Runs lanes beside each other to their ends, and lists what failed."""
+def run(lanes: list[Lane], later: Callable[[], Lane] | None = None) -> int:
+    """Runs lanes beside each other to their ends, and lists what failed.
+
+    Args:
+        lanes: those that start at once.
+        later: makes another one while these run, since choosing its tests takes a while.
+    """
     began_s = time.monotonic()
     try:
         for lane in lanes:
             lane.start()
+        if later is not None:
+            last = later()
+            last.start()
+            lanes = [*lanes, last]
         for lane in lanes:
             lane.join()
     except KeyboardInterrupt:  # all that they run was interrupted too, and prints its summary
@@ -120,11 +148,12 @@ def run(lanes: list[Lane]) -> int:
 
 
 def lint() -> list[Lane]:
-    """Returns the lanes of style, types and directions of imports."""
-    return [
-        Lane("lint", ["make", "--no-print-directory", "lint-python"], ROOT),
-        Lane("eslint", ["make", "--no-print-directory", "lint-frontend"], ROOT),
-    ]
+    """Returns the lanes of style, types and directions of imports.
+
+    They wait for nothing, and take what the tests leave of the processors.
+    """
+    make = ["nice", "-n", "19", "make", "--no-print-directory"]
+    return [Lane("lint", [*make, "lint-python"], ROOT), Lane("eslint", [*make, "lint-frontend"], ROOT)]
 
 
 def page(shard: Shard) -> list[Lane]:

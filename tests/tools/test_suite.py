@@ -25,6 +25,19 @@ def test_lanes_run_beside_each_other_and_all_failures_are_listed(capfd):
     assert suite.run([lane("b", "")]) == PASSED
 
 
+def test_a_lane_that_takes_a_while_to_choose_runs_beside_those_that_began(capfd):
+    lanes = [lane("a", "print('began')")]
+
+    def later():
+        assert lanes[0].ident is not None, "those that are given have started"
+        return lane("b", "raise SystemExit(1)")
+
+    assert suite.run(lanes, later) == TESTS_FAILED
+    shown = capfd.readouterr().out
+    assert "a      | began" in shown
+    assert "b FAILED (1)" in shown
+
+
 def test_a_lane_that_did_not_end_weighs_more_than_a_failure():
     lanes = [lane("a", "raise SystemExit(1)"), lane("b", "raise SystemExit(3)")]
     assert suite.run(lanes) not in (PASSED, TESTS_FAILED)

@@ -6,6 +6,8 @@ import { usePressed } from './hooks/usePressed';
 
 interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
   readonly command: string;
+  /** What the command means here, in place of its label. */
+  readonly label?: string;
   readonly isDisabled?: boolean;
   /** Why the command is not possible now; the button stays focusable, so that its tooltip can say it. */
   readonly reason?: string | null;
@@ -15,6 +17,7 @@ interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' |
 /** A button for a user command, with its icon and tooltip. */
 export function CommandButton({
   command: id,
+  label: given,
   isDisabled = false,
   reason = null,
   testId,
@@ -24,7 +27,7 @@ export function CommandButton({
   const command = useCommandTable((table) => table.commands[id]);
   const { isPressed, handlers } = usePressed();
   if (!command) return null;
-  const label = t(command.labelKey);
+  const label = given ?? t(command.labelKey);
   const keys = keysOf(command);
   const Icon = command.icon;
   return (

@@ -21,6 +21,7 @@ import { Compared } from './branches/Compared';
 import { FlagForm } from './FlagForm';
 import { GoBackButton, GoingBack, RunOnButton } from './GoingBack';
 import { Marks } from './Marks';
+import { PastActions } from './PastActions';
 import { RunSelect } from './branches/RunSelect';
 import { Strip } from './Strip';
 
@@ -140,6 +141,7 @@ function Axis({ extent }: { readonly extent: Extent }) {
           </ActionIcon>
         </Tooltip>
       ) : null}
+      <PastActions />
       <GoBackButton />
       <RunOnButton />
       <div className={classes['extra']}>

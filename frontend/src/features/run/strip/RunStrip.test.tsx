@@ -47,6 +47,7 @@ describe('RunStrip', () => {
   });
 
   it('shows the state of the executor if there is no message, at the same height', () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
     expect(screen.queryByTestId('banner')).toBeNull();
     expect(screen.getByRole('region', { name: 'Messages of the run' })).not.toBeEmptyDOMElement();
   });
@@ -57,6 +58,13 @@ describe('RunStrip', () => {
     expect(screen.queryByTestId('run-strip')).toBeNull();
     executor.emit('state-changed', { state: 'application_running', reason: '' });
     expect(screen.getByTestId('run-strip')).toBeInTheDocument();
+  });
+
+  it('says nothing while all is well', () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    expect(screen.getByTestId('run-strip')).toHaveTextContent('paused');
+    executor.emit('state-changed', { state: 'application_running', reason: '' });
+    expect(screen.getByTestId('run-strip')).toBeEmptyDOMElement();
   });
 
   it('shows the most important of several messages, and all of them on demand', async () => {

@@ -13,7 +13,8 @@ import { useMessages } from './useMessages';
 
 /**
  * The strip for the messages of a run. Its height is fixed, so that a new message neither moves nor covers
- * anything. It shows the most important message, or the state of the executor in a sentence if there is none.
+ * anything. It shows the most important message, or the state of the executor in a sentence if there is none; nothing
+ * while all is well: what runs is seen.
  * A tree that is held, at a block or in Python, has a banner of the same height in its place, unless there is a
  * message.
  */
@@ -41,7 +42,7 @@ export function RunStrip() {
           <MessageRow message={first} />
           <AllMessages messages={messages} />
         </>
-      ) : (
+      ) : shown === 'application_running' ? null : (
         <p className={classes['calm']}>{t(`stateHelp.${shown}`)}</p>
       )}
     </section>

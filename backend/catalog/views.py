@@ -88,7 +88,7 @@ class Universes(ResourceViewSet):
     def text(self, request: Request, universe_id: str) -> HttpResponse:
         """Returns the YAML of the universe, which a project can copy and change."""
         path = queries.universe_text(universe_id)
-        return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
+        return _text(path, "application/yaml", f"There is no world {universe_id!r}.")
 
 
 class Robots(ResourceViewSet):

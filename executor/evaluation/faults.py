@@ -107,7 +107,7 @@ def _problem(  # noqa: PLR0911 - one a field
     """Returns field, message and known names for a wrong name in a fault, or None."""
     ids = [robot.id for robot in plan.universe.robots]
     if fault.robot is not None and fault.robot not in ids:
-        return "robot", f"the universe has no robot {fault.robot!r}", ids
+        return "robot", f"the world has no robot {fault.robot!r}", ids
     index = ids.index(fault.robot) if fault.robot is not None else 0
     config, renamed = plan.configs[index], plan.universe.robots[index].topics
     noisy = {each.name: each.noise_m for each in config.lidars}
@@ -128,7 +128,7 @@ def _problem(  # noqa: PLR0911 - one a field
     if fault.wheel is not None and fault.wheel not in wheels:
         return "wheel", f"the robot has no wheel {fault.wheel!r}", wheels
     if fault.area is not None and fault.area not in plan.universe.areas:
-        return "area", f"the universe has no area {fault.area!r}", list(plan.universe.areas)
+        return "area", f"the world has no area {fault.area!r}", list(plan.universe.areas)
     if fault.node is not None and len(nodes_named(plan.project, fault.node)) != 1:
         found = nodes_named(plan.project, fault.node)
         known = [f"{tree}.{node}" for tree, node in found] or _actions_of(plan.project)

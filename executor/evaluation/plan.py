@@ -152,7 +152,7 @@ def _open_world(project: Project, evaluation: Evaluation) -> tuple[Universe, tup
     own = project.files.get(file)
     universe = find_universe(text_of(own, file) if own is not None else name, file)
     if not universe.robots:
-        raise EvaluationError(f"{file}:1:1: the universe has no robot, so there is nothing to judge")
+        raise EvaluationError(f"{file}:1:1: the world has no robot, so there is nothing to judge")
     with tempfile.TemporaryDirectory(prefix="bt-studio-") as folder:
         write_files(
             Path(folder), {k: v for k, v in project.files.items() if k.startswith(("assets/", "robots/"))}
@@ -220,7 +220,7 @@ def _judge_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterat
             if area not in universe.areas:
                 there = ", ".join(universe.areas) or "none; add `areas` to it"
                 yield Problem(
-                    f"the universe has no area {area!r}",
+                    f"the world has no area {area!r}",
                     *place((*path, item.kind)),
                     "BTV003",
                     f"it has: {there}",

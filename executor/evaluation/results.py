@@ -46,7 +46,7 @@ def kept_outcomes(
     world, made_in = world_of(plan.universe), header.get("universe")
     if made_in not in {None, world["version"]}:
         raise ResultsError(
-            f"{results.folder / HEADER}:1:1: the results are of version {made_in} of the universe "
+            f"{results.folder / HEADER}:1:1: the results are of version {made_in} of the world "
             f"“{world['name']}”, which is {world['version']} now; name another folder"
         )
     earlier: list[dict[str, str]] = header.get("fingerprints", [])

@@ -198,7 +198,7 @@ def _misfit(target: Target, draw: Draw, universe: Universe) -> str:
         )
     if draw.area is not None and draw.area not in universe.areas:
         there = ", ".join(universe.areas) or "none; add `areas` to it"
-        return f"the universe has no area {draw.area!r}; it has: {there}"
+        return f"the world has no area {draw.area!r}; it has: {there}"
     if target.kind != "port" and any(isinstance(value, str | bool) for value in draw.choice or ()):
         return "the value is a number"
     return ""

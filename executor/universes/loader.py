@@ -42,7 +42,7 @@ def builtin_path(universe_id: str) -> Path:
     if universe_id not in BUILTIN_IDS:
         near = difflib.get_close_matches(universe_id, BUILTIN_IDS, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(BUILTIN_IDS)}"
-        problem = Problem(f"there is no universe {universe_id!r}", code="BTU004", hint=hint)
+        problem = Problem(f"there is no world {universe_id!r}", code="BTU004", hint=hint)
         raise UniverseError([problem], universe_id)
     return _FOLDER / f"{universe_id}.yaml"
 

@@ -23,7 +23,7 @@ def test_what_a_project_runs_with_is_changed_and_copied(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     universe, robot = studio.at("used-universe"), studio.at("used-robot")
     expect(universe).to_contain_text("Walled room")
-    expect(robot).to_contain_text("placed by the universe")
+    expect(robot).to_contain_text("placed by the world")
     studio.picture("explorer-runs-with")
     the_robot_is_changed(studio, robot)
     a_copy_is_made_and_undone(studio, universe)
@@ -40,7 +40,7 @@ def the_robot_is_changed(studio: Studio, robot: Locator) -> None:
     """By keyboard: the chooser opens at the robots."""
     studio.at("change-robot").focus()
     studio.page.keyboard.press("Enter")
-    expect(studio.at("worlds").get_by_role("radio", name="The universe's own")).to_be_focused()
+    expect(studio.at("worlds").get_by_role("radio", name="The world's own")).to_be_focused()
     studio.at("choice-burger").click()
     studio.at("choose-world").click()
     expect(robot).to_contain_text("Burger")
@@ -146,7 +146,7 @@ def the_title_follows(studio: Studio, universe: Locator) -> None:
     """The tab and the list follow the document's name, and the name follows that of the file."""
     tab = studio.page.get_by_role("tab")
     studio.at("universe-view").press("Escape")
-    name = studio.at("world-fields").get_by_label("Name of the universe")
+    name = studio.at("world-fields").get_by_label("Name of the world")
     name.fill("My yard")
     name.press("Enter")
     expect(tab.filter(has_text="My yard")).to_be_visible()

@@ -65,9 +65,9 @@ def test_the_best_values_of_a_study_are_one_edit(
     panel = studio.at("evaluate")
     (tmp_path / "tuning.json").write_bytes(study())
     with page.expect_file_chooser() as chooser:
-        panel.get_by_role("button", name="Open a study…").click()
+        panel.get_by_role("button", name="Open a tuning…").click()
     chooser.value.set_files(tmp_path / "tuning.json")
-    shown = panel.get_by_role("region", name="Study: room, tuned")
+    shown = panel.get_by_role("region", name="Tuning: room, tuned")
     expect(shown.get_by_role("status")).to_contain_text("An improvement is shown")
     expect(shown.get_by_role("img", name="success by trial")).to_be_visible()
     studio.picture("study")

@@ -65,7 +65,7 @@ def test_a_project_that_cannot_be_evaluated_says_why(text, others, words):
 def test_names_and_errors_of_the_project():
     with pytest.raises(EvaluationError, match="did you mean 'main'"):
         make_plan(project(GOOD), "mian")
-    with pytest.raises(DocumentError, match="no universe 'nirgends'"):
+    with pytest.raises(DocumentError, match="no world 'nirgends'"):
         make_plan(project("universe: nirgends\n" + GOOD), "main")
     with pytest.raises(TranslatorError):
         make_plan(project(GOOD, action="class Drive(", name="Drive"), "main")

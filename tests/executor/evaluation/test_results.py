@@ -75,7 +75,7 @@ def test_results_of_another_version_of_the_universe_are_not_continued(tmp_path):
     for version in (world_of(plan.universe)["version"], "00000000"):
         results.begin({"inputs": inputs_of(plan), "universe": version, "fingerprints": [MINE]})
         if version == "00000000":
-            with pytest.raises(ResultsError, match="version 00000000 of the universe “Yard”"):
+            with pytest.raises(ResultsError, match="version 00000000 of the world “Yard”"):
                 kept_outcomes(results, plan, MINE)
         else:
             assert kept_outcomes(results, plan, MINE)[0] == []

@@ -35,7 +35,7 @@ it('starts by the keyboard alone, sealed if asked', async () => {
   await user.type(screen.getByLabelText('Runs'), '5');
   await user.tab();
   await user.tab();
-  expect(screen.getByLabelText('Sealed')).toHaveFocus();
+  expect(screen.getByLabelText('Grade mode')).toHaveFocus();
   await user.keyboard(' ');
   await user.type(screen.getByLabelText('Runs'), '{Enter}');
   expect(start).toHaveBeenCalledWith(5, true);

@@ -42,7 +42,7 @@ describe('Explorer', () => {
 
   it('lists the files by kind, in order', () => {
     const names = Object.fromEntries(
-      ['Trees', 'Actions', 'Universes', 'Robots', 'Other files'].map((title) => {
+      ['Trees', 'Actions', 'Worlds', 'Robots', 'Other files'].map((title) => {
         const items = within(screen.getByRole('region', { name: title })).queryAllByRole('listitem');
         return [title, items.map((item) => item.textContent)];
       }),
@@ -50,7 +50,7 @@ describe('Explorer', () => {
     expect(names).toEqual({
       Trees: ['Dock', 'Main'],
       Actions: ['Turn.py'],
-      Universes: ['hall.yaml'],
+      Worlds: ['hall.yaml'],
       Robots: ['mine'],
       'Other files': ['README.md', 'project.json', 'robots/mine/body.urdf'],
     });

@@ -92,7 +92,7 @@ describe('ReportContents', () => {
 
   it('offers another universe', async () => {
     open();
-    await user.click(screen.getByRole('button', { name: 'Choose another universe…' }));
+    await user.click(screen.getByRole('button', { name: 'Choose another world…' }));
     expect(useUniverseChooser.getState().isOpen).toBe(true);
     expect(useImportReport.getState().projectId).toBeNull();
   });

@@ -44,7 +44,7 @@ const use = () => user.click(screen.getByTestId('choose-world'));
 describe('the chooser of universe and robot', () => {
   it('offers those of the project first, each id once', async () => {
     await chooser();
-    expect(values('Universe')).toEqual(['lab', 'own_room', 'none']);
+    expect(values('World')).toEqual(['lab', 'own_room', 'none']);
     expect(choice('lab')).toHaveTextContent('labMade in this project');
     expect(values('Robot')).toEqual(['', 'mine', 'own_rover']);
     expect(choice('mine')).toHaveTextContent('mineA robot of this project.');
@@ -57,7 +57,7 @@ describe('the chooser of universe and robot', () => {
     fakeServer({});
     openProject({});
     show(<UniverseChooser />);
-    expect(screen.getByLabelText('Loading universes and robots')).toBeInTheDocument();
+    expect(screen.getByLabelText('Loading worlds and robots')).toBeInTheDocument();
     expect(screen.queryByTestId('worlds')).toBeNull();
   });
 

@@ -64,7 +64,7 @@ describe('the dialogue for a new universe', () => {
   it.each(['lab', 'LAB', 'none'])('refuses the taken name %s', async (taken) => {
     const { openFile } = dialog();
     await write(await name(), taken);
-    expect(screen.getByText('This project already has a universe with this name')).toBeInTheDocument();
+    expect(screen.getByText('This project already has a world with this name')).toBeInTheDocument();
     expect(screen.getByTestId('new-universe-ok')).toBeDisabled();
     expect(openFile).not.toHaveBeenCalled();
   });

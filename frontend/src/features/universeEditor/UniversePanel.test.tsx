@@ -53,9 +53,9 @@ beforeEach(() => {
 
 describe('the fields of a universe', () => {
   it('name it', async () => {
-    await write('Name of the universe', 'Big hall');
+    await write('Name of the world', 'Big hall');
     expect(universe().name).toBe('Big hall');
-    await type('Name of the universe', ' ');
+    await type('Name of the world', ' ');
     expect(screen.getByText('Must not be empty')).toBeInTheDocument();
     await user.keyboard('{Enter}');
     expect(universe().name).toBe('Big hall');

@@ -25,7 +25,7 @@ describe('the tab of a universe', () => {
     expect(screen.getByTestId('universe-editor')).toHaveAttribute('data-path', UNIVERSE);
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();
     expect(screen.getByRole('listbox', { name: '5 things' })).toBeInTheDocument();
-    expect(screen.getByRole('toolbar', { name: 'Tools of the universe' })).toBeInTheDocument();
+    expect(screen.getByRole('toolbar', { name: 'Tools of the world' })).toBeInTheDocument();
     expect(screen.queryByText(/the simulator would refuse/)).toBeNull();
   });
 
@@ -33,18 +33,18 @@ describe('the tab of a universe', () => {
     const editor = tab();
     setText(HALL.replace('name: Hall', 'name: Lab'));
     expect(editor.store.getState().undoStack.past.map(({ label }) => label)).toEqual(['text']);
-    expect(screen.getByRole('textbox', { name: 'Name of the universe' })).toHaveValue('Lab');
+    expect(screen.getByRole('textbox', { name: 'Name of the world' })).toHaveValue('Lab');
   });
 
   it('counts the problems, and still shows what can be shown', () => {
     tab(HALL.replace('mass: 0.4', 'mass: -1'));
-    expect(screen.getByText('1 problem: the simulator would refuse this universe')).toBeInTheDocument();
+    expect(screen.getByText('1 problem: the simulator would refuse this world')).toBeInTheDocument();
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();
   });
 
   it('reports that a broken text cannot be shown, until it can', () => {
     tab('models: [');
-    expect(screen.getByRole('alert')).toHaveTextContent('The text cannot be read as a universe');
+    expect(screen.getByRole('alert')).toHaveTextContent('The text cannot be read as a world');
     expect(screen.queryByTestId('universe-view')).toBeNull();
     setText(HALL);
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();

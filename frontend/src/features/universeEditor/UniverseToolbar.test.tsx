@@ -48,7 +48,7 @@ describe('the toolbar of a universe', () => {
 
   it('offers all three gestures, and its grids', async () => {
     const { editor } = toolbar();
-    expect(screen.getByRole('toolbar', { name: 'Tools of the universe' })).toBeInTheDocument();
+    expect(screen.getByRole('toolbar', { name: 'Tools of the world' })).toBeInTheDocument();
     expect(screen.getAllByRole('radio').map((radio) => (radio as HTMLInputElement).value)).toEqual([
       'move',
       'turn',

@@ -17,10 +17,10 @@ const EMPTY = 'format: bt-studio/universe\nversion: 1\nname: Empty\nrobots: []\n
 describe('the view of a universe', () => {
   it('is one control, with a description if there is no WebGL', () => {
     view();
-    const control = screen.getByRole('application', { name: /^Hall\. The universe in 3D\./ });
+    const control = screen.getByRole('application', { name: /^Hall\. The world in 3D\./ });
     expect(control).toHaveAttribute('data-things', '5');
     expect(screen.getByRole('note')).toHaveTextContent(
-      'This browser has no WebGL, so the universe is not shown',
+      'This browser has no WebGL, so the world is not shown',
     );
     expect(screen.queryByText(/An empty floor/)).toBeNull();
     expect(screen.queryByText(/Click from corner to corner/)).toBeNull();

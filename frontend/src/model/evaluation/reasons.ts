@@ -41,7 +41,7 @@ const PATTERNS = {
     /^(?<file>\S+):1:1: a project with launch files cannot be evaluated: its nodes run in real time$/,
   launchNode:
     /^(?<place>\S+): the launch node (?<name>.+) is left out: it runs in real time, and this run in simulated time$/,
-  noRobot: /^(?<file>\S+):1:1: the universe has no robot, so there is nothing to judge$/,
+  noRobot: /^(?<file>\S+):1:1: the world has no robot, so there is nothing to judge$/,
   treeAlone:
     /^(?<file>\S+):1:1: the judge asks for the result of the tree alone, which sealed actions only claim \(.+\)$/,
   outcomesFull:

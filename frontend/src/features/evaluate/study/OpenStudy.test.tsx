@@ -12,7 +12,7 @@ it('opens a study, and says what is none', async () => {
   show(<OpenStudy onOpen={onOpen} />);
   const field = document.querySelector('input[type="file"]') as HTMLInputElement;
   await user.upload(field, new File(['{}'], 'tuning.json', { type: 'application/json' }));
-  expect(await screen.findByRole('alert')).toHaveTextContent('This file is no study');
+  expect(await screen.findByRole('alert')).toHaveTextContent('This file is no result of a tuning');
   const study = new File([text], 'tuning.json', { type: 'application/json' });
   await user.upload(field, study);
   await vi.waitFor(() => expect(onOpen).toHaveBeenCalledOnce());

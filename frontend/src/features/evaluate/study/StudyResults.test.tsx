@@ -30,14 +30,14 @@ it('shows the best values beside those of today, and sets them in one step', asy
   expect(screen.getByRole('row', { name: /^Best 1/ })).toHaveTextContent('in the trees');
   useProjectStore.getState().undo('MainTree');
   expect(portOf()).toBe(study.today.texts['MainTree.go.speed']);
-  await user.click(screen.getByRole('button', { name: 'Close the study' }));
+  await user.click(screen.getByRole('button', { name: 'Close the tuning' }));
   expect(onClose).toHaveBeenCalledOnce();
 });
 
 it('says that the port was changed since', () => {
   open({ ...study, improvement: false }, '0.55');
   expect(screen.getByRole('status')).toHaveTextContent('No improvement is shown');
-  expect(screen.getByRole('note')).toHaveTextContent('another value than when the study began');
+  expect(screen.getByRole('note')).toHaveTextContent('another value than when the tuning began');
 });
 
 it('offers nothing for a block that is gone, and to viewers', () => {

@@ -33,7 +33,7 @@ describe('what the project runs with', () => {
     await user.click(screen.getByTestId('used-universe'));
     expect(useUniverseChooser.getState()).toEqual({ isOpen: true, first: 'universe' });
     expect(screen.getByRole('button', { name: 'Make my own copy of Maze' })).toBeInTheDocument();
-    expect(await menu('used-universe')).toEqual(['Change the universe…', 'Make my own copy']);
+    expect(await menu('used-universe')).toEqual(['Change the world…', 'Make my own copy']);
   });
 
   it("is opened where it is the project's own", async () => {
@@ -42,12 +42,12 @@ describe('what the project runs with', () => {
     expect(screen.queryByTestId('copy-universe')).toBeNull();
     await user.click(screen.getByTestId('used-universe'));
     expect(navigator.openFile).toHaveBeenCalledExactlyOnceWith('universes/hall.yaml', undefined);
-    expect(await menu('used-universe')).toEqual(['Open', 'Change the universe…']);
+    expect(await menu('used-universe')).toEqual(['Open', 'Change the world…']);
   });
 
   it('is a robot, which has cards of its own', async () => {
     show(<UsedItem used={{ kind: 'robot', id: 'turtle2', path: null, isOfUniverse: true }} />);
-    expect(screen.getByTestId('used-robot')).toHaveTextContent('Built in, placed by the universe');
+    expect(screen.getByTestId('used-robot')).toHaveTextContent('Built in, placed by the world');
     await user.click(screen.getByTestId('change-robot'));
     expect(useUniverseChooser.getState()).toEqual({ isOpen: true, first: 'robot' });
   });

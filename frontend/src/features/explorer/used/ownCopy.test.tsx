@@ -72,13 +72,13 @@ describe('a copy of your own', () => {
       first = makeOwnCopy('universe');
     });
     expect(useCopying.getState().kind).toBe('universe');
-    expect(await screen.findByText('Copying the universe into the project…')).toBeInTheDocument();
+    expect(await screen.findByText('Copying the world into the project…')).toBeInTheDocument();
     await act(async () => {
       await makeOwnCopy('universe');
       await first;
     });
     expect(paths()).toEqual(['universes/my_maze.yaml']);
-    await waitFor(() => expect(screen.queryByText('Copying the universe into the project…')).toBeNull());
+    await waitFor(() => expect(screen.queryByText('Copying the world into the project…')).toBeNull());
   });
 
   it('is for what is built in, in a project that may be changed', () => {

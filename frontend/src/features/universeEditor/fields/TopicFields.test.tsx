@@ -32,9 +32,9 @@ describe('the topics of a robot', () => {
 
   it('are requested for a built-in robot', async () => {
     fields(HALL, {}, { 'GET /catalog/robots/turtle2/config': new Response(CONFIG) });
-    expect(screen.queryByText('Topic names in this universe')).toBeNull();
+    expect(screen.queryByText('Topic names in this world')).toBeNull();
     expect(await screen.findByTestId('topic-of-scan')).toBeInTheDocument();
-    expect(screen.getByText('Topic names in this universe')).toBeInTheDocument();
+    expect(screen.getByText('Topic names in this world')).toBeInTheDocument();
   });
 
   it('can be renamed here, one by one, and reset', async () => {

@@ -15,19 +15,19 @@ const textures = () => screen.getAllByRole('combobox', { name: 'Texture' });
 describe('the fields of a universe', () => {
   it('name and describe it', async () => {
     const { universe } = fields();
-    await write(box('Name of the universe'), 'Lab');
+    await write(box('Name of the world'), 'Lab');
     await write(box('Description'), 'Two rooms');
     expect(universe()).toMatchObject({ name: 'Lab', description: 'Two rooms' });
   });
 
   it('refuse a name of more than 120 letters', async () => {
     const { universe } = fields();
-    await user.clear(box('Name of the universe'));
+    await user.clear(box('Name of the world'));
     await user.paste('a'.repeat(121));
-    expect(box('Name of the universe')).toBeInvalid();
+    expect(box('Name of the world')).toBeInvalid();
     await user.keyboard('{Enter}');
     expect(universe().name).toBe('Hall');
-    await user.clear(box('Name of the universe'));
+    await user.clear(box('Name of the world'));
     await user.paste('a'.repeat(120));
     await user.keyboard('{Enter}');
     expect(universe().name).toHaveLength(120);
@@ -91,7 +91,7 @@ describe('the fields of a universe', () => {
     lookOnly();
     showUniverse(editor, (now) => <UniverseFields editor={editor} universe={now} />);
     expect(screen.getByRole('switch', { name: 'Indoors' })).toBeDisabled();
-    expect(box('Name of the universe')).toBeDisabled();
+    expect(box('Name of the world')).toBeDisabled();
     expect(box('Friction')).toBeDisabled();
     expect(box('Colour of the ground')).toBeDisabled();
   });

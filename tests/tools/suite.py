@@ -69,7 +69,7 @@ def main(arguments: list[str]) -> int:
 
 
 class Known(NamedTuple):
-    """What earlier runs noted of the files of tests."""
+    """The notes of earlier runs about the files of tests."""
 
     loaded: Mapping[str, frozenset[str]]
     executed: Mapping[str, Executed]

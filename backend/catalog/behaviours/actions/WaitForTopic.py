@@ -28,7 +28,7 @@ class WaitForTopic(py_trees.behaviour.Behaviour):
         self.arrived = False
         self.began_s = self.now_s()
 
-    def on_message(self, _message: message_class):
+    def on_message(self, _message):
         self.arrived = True
 
     def subscribe(self, topic):

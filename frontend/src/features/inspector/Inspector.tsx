@@ -24,6 +24,7 @@ import { selectionKey } from '@/workspace/focus';
 import { targetOf, type Target } from './target';
 import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';
+import { VariantField } from './VariantField';
 import classes from './Inspector.module.css';
 
 /** The commands for several blocks; each also exists for a single block. */
@@ -107,6 +108,7 @@ function AllFields(target: Target) {
       <WhySection tree={tree} node={id} />
       <SilencedList {...target} />
       {node.type === 'SubTree' && <TreeField {...target} />}
+      <VariantField {...target} />
       <PortList {...target} />
       {isFirst ? null : <DebugSection tree={tree} node={id} />}
       <RareFields {...target} />
@@ -145,6 +147,7 @@ function BasicFields(target: Target) {
       {isApart ? <DebugSection tree={tree} node={id} /> : null}
       <WhySection tree={tree} node={id} />
       {node.type === 'SubTree' && <TreeField {...target} />}
+      <VariantField {...target} />
       <PortList {...target} />
       <details
         className={classes['more']}

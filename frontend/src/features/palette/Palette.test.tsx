@@ -49,6 +49,12 @@ describe('Palette', () => {
     expect(group(/^Actions/)).toHaveTextContent('Actions1');
   });
 
+  it('lists a block once that has several variants, and finds each', async () => {
+    expect(names().filter((name) => /Switch|Loop/.test(name ?? ''))).toEqual(['Switch', 'Loop']);
+    await user.type(screen.getByRole('textbox', { name: 'Search nodes' }), 'Switch4');
+    expect(names()).toEqual(['Switch4']);
+  });
+
   it('finds blocks by name, and by what they do', async () => {
     const search = screen.getByLabelText('Search nodes');
     await user.type(search, 'gra');

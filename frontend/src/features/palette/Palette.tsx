@@ -4,6 +4,7 @@ import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shippedChoice } from '@/i18n/shipped';
 import { allChoices, isNamed, type Choice } from '@/model/choices';
+import { isOtherVariant, variantOf } from '@/model/variants';
 import { useProjectStore } from '@/store/project';
 import { useOfferedStore } from '@/store/project/offered';
 import { useIsBasic } from '@/store/viewMode';
@@ -38,6 +39,15 @@ function groupOf({ spec }: Choice): Group {
   return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
 }
 
+/** Returns whether the list shows a block; one variant stands for the others, which a search finds. */
+const stands = ({ kind }: Choice): boolean => !isOtherVariant(kind.type);
+
+/** Returns a block under the name of all its variants. */
+function named(choice: Choice): Choice {
+  const name = variantOf(choice.kind.type);
+  return name === null ? choice : { ...choice, label: name };
+}
+
 /** The list of all available blocks by family; the user's own come first. */
 export function Palette() {
   const { t } = useTranslation('palette');
@@ -49,15 +59,14 @@ export function Palette() {
   const [isNaming, setIsNaming] = useState(false);
   const isBasic = useIsBasic();
   const [showsMore, setShowsMore] = useState(false);
+  const isFound = (choice: Choice): boolean =>
+    isNamed(choice, search.trim()) ||
+    (search.length > 2 && shippedChoice(choice).toLowerCase().includes(search.toLowerCase()));
   const choices = useMemo(
     () => allChoices(tree === null ? null : { id: tree }, vocabulary, offered),
     [tree, vocabulary, offered],
   );
-  const shown = choices.filter(
-    (choice) =>
-      isNamed(choice, search.trim()) ||
-      (search.length > 2 && shippedChoice(choice).toLowerCase().includes(search.toLowerCase())),
-  );
+  const shown = search.trim() === '' ? choices.filter(stands).map(named) : choices.filter(isFound);
   // A search looks through all blocks.
   const isShort = isBasic && !showsMore && search === '';
   return (

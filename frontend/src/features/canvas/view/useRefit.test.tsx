@@ -1,6 +1,6 @@
 import { act, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
-import { setLayout } from '@/model/edits';
+import { addNode, setLayout } from '@/model/edits';
 import { toggleExpanded } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
@@ -67,6 +67,46 @@ describe('the view is fitted again', () => {
     act(() => store.setState({ width: 200 }));
     await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
   });
+});
+
+const growBy = (count: number) =>
+  act(() => {
+    for (let n = 0; n < count; n++)
+      useProjectStore
+        .getState()
+        .apply('Main', 'add', [addNode(`n${n}`, { type: 'Sleep' }, { at: 'child', parent: 'r', index: 0 })]);
+  });
+
+describe('a tree that grows', () => {
+  it('is kept in view', async () => {
+    const { store, wish } = begin();
+    act(() => store.setState({ transform: [250, 20, 1] }));
+    growBy(4);
+    await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+  });
+
+  it('stays where it is if a part of it was out of sight before', () => {
+    const { store, wish } = begin();
+    act(() => store.setState({ transform: [-900, 20, 1] }));
+    growBy(4);
+    expect(wish()).toBeUndefined();
+  });
+
+  it('is not made so small that its names cannot be read', () => {
+    const { store, wish } = begin();
+    act(() => store.setState({ transform: [250, 20, 1] }));
+    growBy(40);
+    expect(wish()).toBeUndefined();
+  });
+});
+
+it('the first block is shown in the middle', async () => {
+  openDiagram({ root: null, nodes: {} });
+  const { wish } = begin();
+  act(() =>
+    useProjectStore.getState().apply('Main', 'add', [addNode('a', { type: 'Sleep' }, { at: 'root' })]),
+  );
+  await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
 });
 
 it('is fitted to the last of several sizes that follow each other, as an edge is dragged', async () => {

@@ -12,6 +12,8 @@ const ANIMATED = { ...FIT, duration: 200 };
  * panel's edge.
  */
 const FITTED_MS = ANIMATED.duration + 300;
+/** A tree that grows is kept in view as a whole as long as it fits at this zoom. */
+const KEPT = 0.5;
 /** In a presentation a small tree is enlarged, to be read from afar. */
 const PRESENTED = { ...FIT, maxZoom: 2, duration: 200 };
 
@@ -28,8 +30,8 @@ function changedGroup(
 
 /**
  * Fits the view again after a change of the whole picture: the orientation, the compact layout, a SubTree
- * that is expanded or closed, or a new size of the canvas, if all blocks were visible before and are not any
- * more. A presentation always shows all blocks, and restores the earlier view at its end.
+ * that is expanded or closed, the first block, or a new size of the canvas or of the tree, if all blocks were
+ * visible before and are not any more. A presentation always shows all blocks, and restores the earlier view at its end.
  */
 export function useRefit(tree: TreeOnCanvas): void {
   const flow = useReactFlow<BlockNode, TreeEdge>();
@@ -80,9 +82,17 @@ export function useRefit(tree: TreeOnCanvas): void {
       requestAnimationFrame(() => void flow.setViewport(rest.viewport));
       return;
     }
-    if ((last.width === width && last.height === height) || last.width === 0 || width === 0) return;
+    if (last.width === 0 || width === 0) return;
     const { transform } = store.getState();
     const isAiming = performance.now() < aims.current;
+    if (last.width === width && last.height === height) {
+      if (last.layout === layout) return;
+      const isFirst = last.layout.width === 0 && layout.width > 0;
+      const wasWhole = isAiming || isWhole(last, transform);
+      const fits = Math.min(width / layout.width, height / layout.height) / (1 + FIT.padding) >= KEPT;
+      if (isFirst || (fits && wasWhole && !isWhole({ width, height, layout }, transform))) fitSoon();
+      return;
+    }
     if (isAiming || (isWhole(last, transform) && !isWhole({ width, height, layout }, transform))) fitSoon();
   }, [tree, flow, store, layout, diagram, shown, isCompact, isPresented, width, height]);
 }

@@ -22,6 +22,7 @@ import { ReasonPath } from '@/ui/ReasonPath';
 import { useProblemText } from '@/ui/hooks/useProblemText';
 import classes from './problems.module.css';
 
+const TREE_FILE = /^trees\/(.+)\.json$/;
 const ICONS = { error: IconCircleX, warning: IconAlertTriangle, note: IconInfoCircle };
 
 export function ProblemsPanel() {
@@ -54,7 +55,9 @@ function Row({ item }: { readonly item: ListedProblem }) {
   const { message, hint } = useProblemText()(item.problem);
   const node = item.node ? diagram?.nodes[item.node] : undefined;
   const Icon = ICONS[item.severity];
-  const place = item.file ? [item.file, item.line].filter(Boolean).join(':') : (item.tree ?? '');
+  // The user knows a tree by its name, not by its file.
+  const file = item.file?.replace(TREE_FILE, '$1');
+  const place = file ? [file, item.line].filter(Boolean).join(':') : (item.tree ?? '');
   const where = [
     item.topic ?? '',
     node ? displayName(node) : '',
@@ -74,6 +77,8 @@ function Row({ item }: { readonly item: ListedProblem }) {
         className={classes['row']}
         data-severity={item.severity}
         data-code={item.code}
+        // The list of all findings has them by their codes.
+        title={item.code}
         onClick={() => openProblem(item)}
       >
         <Icon size={16} role="img" aria-label={t(`severity.${item.severity}`)} />
@@ -81,9 +86,9 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
-        <span className={classes[item.isFault ? 'fault' : 'code']}>
-          {item.isFault ? t('fault') : item.topic === null ? item.code : t('topic')}
-        </span>
+        {item.isFault || item.topic !== null ? (
+          <span className={classes['fault']}>{t(item.isFault ? 'fault' : 'topic')}</span>
+        ) : null}
       </button>
       {path.length > 0 || fixes.length > 0 || canSilence || hasMoment ? (
         <div className={classes['fixes']}>

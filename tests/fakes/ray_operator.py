@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 _CLUSTER = """
 import sys
-from executor.evaluation.cluster.ray_pool import import_ray
+from executor.evaluation.cluster.ray_pool import import_ray, patiently
 
 import_ray(is_own=False)
 from ray.cluster_utils import Cluster
 
 cluster = Cluster()
-cluster.add_node(num_cpus=1, object_store_memory=100 << 20, include_dashboard=False)
+patiently(lambda: cluster.add_node(num_cpus=1, object_store_memory=100 << 20, include_dashboard=False))
 print(cluster.address, flush=True)
 sys.stdin.read()
 cluster.shutdown()

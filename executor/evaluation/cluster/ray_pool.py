@@ -13,7 +13,7 @@ import socket
 import sys
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from executor.evaluation.cluster.batch import Batch, run_batch
 from executor.evaluation.fingerprint import differences, fingerprint
@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 BATCH_S: Final = 30.0
 """The processor time of a batch; a shorter one would be mostly the start of its supervisor."""
 STORE_BYTES: Final = 200 << 20
-# Ray waits 30 s for a node; on a busy machine it starts later.
+# Ray waits 30 s for a node, in two places; on a busy machine it starts later. Only one can be set.
 NODE_START_S: Final = "120"
+NODE_STARTS: Final = 4
+LATE: Final = "timed out during startup"
 AUTO: Final = "auto"
 NOTED: Final = Path("/tmp/ray/ray_current_cluster")  # noqa: S108 - where Ray keeps it
 REACH_S: Final = 5.0
@@ -37,6 +39,9 @@ MISSING: Final = (
     "--cluster needs Ray, which is not installed: {python} -m pip install 'ray~=2.60' (the extra `cluster`)"
 )
 STALE: Final = f" (if the cluster that {NOTED} names is gone, `ray stop` removes that note)"
+
+
+T = TypeVar("T")
 
 
 class ClusterError(RuntimeError):
@@ -207,13 +212,36 @@ def connect(ray: Any, address: str | None) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            ray.init(address=address or "local", **options)
+            patiently(lambda: ray.init(address=address or "local", **options), ray.shutdown)
         except (ConnectionError, ValueError, RuntimeError) as error:
             text = str(error).strip().partition("\n")[0]
             stale = STALE if address == AUTO and NOTED.exists() else ""
             raise ClusterError(
                 f"--cluster {address or AUTO}: there is no Ray cluster: {text}{stale}"
             ) from error
+
+
+def patiently(start: Callable[[], T], clean: Callable[[], object] = lambda: None) -> T:
+    """Starts a node of Ray, again if a busy machine was too slow for it.
+
+    Args:
+        start: starts the node.
+        clean: called before it is started again.
+
+    Raises:
+        RuntimeError: it was late each time.
+    """
+    for left in reversed(range(NODE_STARTS)):
+        try:
+            return start()
+        except Exception as error:
+            # Ray raises no class of its own here, and no setting changes its 30 s.
+            if LATE not in str(error):
+                raise
+            if not left:
+                raise RuntimeError(str(error)) from error
+            clean()
+    raise AssertionError("unreachable")
 
 
 def _unreachable(address: str | None) -> str:

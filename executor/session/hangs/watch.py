@@ -27,6 +27,7 @@ SPARES_LOST: Final = 2
 CLOCK_PERIOD_S: Final = 1 / 60
 CLOCKS_MISSED: Final = 4
 DEAF_AGAIN_S: Final = 60.0
+FOUND_AFTER_S: Final = 20.0
 TRACE_CHARACTERS: Final = 4000
 _TICK_HINT: Final = "update() must return soon: let it return RUNNING while work continues."
 _LOAD_HINT: Final = (
@@ -202,17 +203,16 @@ def _listen_for_time(stage: Stage, child: Child, counted_s: float, now_s: float)
     if vitals.is_well and world.vitals.is_well:
         vitals.deaf_s += counted_s
     speed = stage.mirror.speed
-    # One that was started again finds its peers late on a busy machine; a lost world costs more than a wait.
     patience_s = END_AFTER_S if now_s < run.deaf_until_s else FAULT_AFTER_S
     limit_s = max(patience_s, CLOCKS_MISSED * CLOCK_PERIOD_S / speed) if speed > 0 else patience_s
+    is_mute = world.vitals.deaf_s > limit_s / 2
+    if now_s < run.deaf_until_s and not is_mute:
+        # On a busy machine it finds its peers late; a lost world costs more than a wait.
+        limit_s = max(limit_s, FOUND_AFTER_S)
     if vitals.deaf_s < limit_s:
         return
     vitals.deaf_s = 0.0
-    who = (
-        "the simulated world does not publish it"
-        if world.vitals.deaf_s > limit_s / 2
-        else "the application does not receive it"
-    )
+    who = "the simulated world does not publish it" if is_mute else "the application does not receive it"
     text = f"The application runs without simulated time: no /clock for {limit_s:.0f} s, {who}."
     if now_s >= run.deaf_until_s:
         run.deaf_until_s = now_s + DEAF_AGAIN_S

@@ -13,7 +13,7 @@ from typing import Any
 
 import psutil
 
-from executor.evaluation.cluster.ray_pool import import_ray
+from executor.evaluation.cluster.ray_pool import import_ray, patiently
 from executor.evaluation.evaluate import Progress, evaluate
 from executor.evaluation.plan import Plan, make_plan
 from translator import open_path
@@ -55,7 +55,9 @@ def main() -> None:
     }
     cluster = Cluster()
     try:
-        progress = evaluated(plan, cluster, [cluster.add_node(**options) for _ in range(nodes)], seeds)
+        progress = evaluated(
+            plan, cluster, [patiently(lambda: cluster.add_node(**options)) for _ in range(nodes)], seeds
+        )
     finally:
         cluster.shutdown()  # otherwise its address stays noted for every later Ray of this machine
     for seed in sorted(progress.outcomes):

@@ -68,6 +68,32 @@ class RayWithoutCluster:
     def init(self, **_: object) -> None:
         raise ConnectionError("nothing answers\nat all")
 
+    def shutdown(self) -> None:
+        raise AssertionError("a cluster that is not there is not tried again")
+
+
+class RayOfASlowMachine:
+    """Ray whose node starts late a few times, and then in time."""
+
+    def __init__(self, late: int) -> None:
+        self.late, self.shutdowns = late, 0
+
+    def init(self, **_: object) -> None:
+        if self.late:
+            self.late -= 1
+            raise Exception("The current node timed out during startup. This could happen because …")
+
+    def shutdown(self) -> None:
+        self.shutdowns += 1
+
+
+def test_a_node_that_is_late_is_started_again_and_at_last_said():
+    ray = RayOfASlowMachine(late=3)
+    connect(ray, None)
+    assert ray.shutdowns == 3
+    with pytest.raises(ClusterError, match="timed out during startup"):
+        connect(RayOfASlowMachine(late=99), None)
+
 
 def test_a_note_of_a_cluster_that_is_gone_is_named(monkeypatch, tmp_path):
     noted = tmp_path / "ray_current_cluster"

@@ -372,7 +372,7 @@ def test_without_simulated_time_the_application_is_started_again_once():
     assert "does not receive it" in fault.message
     assert play.told("application")[-3:] == ["stop", "start", "resume"]
     assert play.state is State.APPLICATION_RUNNING
-    play.goes_on(7)
+    play.goes_on(19)
     assert len(play.faults) == 1, "it finds its peers late on a busy machine"
     play.goes_on(3)
     assert len(play.faults) == 2

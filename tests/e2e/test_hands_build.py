@@ -164,9 +164,9 @@ def dialogues_by_keys(studio: Studio) -> None:
     dialogue = page.get_by_role("dialog")
     wanted = {
         "new action": dialogue.get_by_role("textbox"),
-        "new universe": page.get_by_test_id("new-universe-name"),
+        "new world": page.get_by_test_id("new-universe-name"),
         "settings of the project": dialogue.get_by_role("textbox", name="Name"),
-        "universe and robot": dialogue.get_by_role("radio", checked=True).first,
+        "world and robot": dialogue.get_by_role("radio", checked=True).first,
         "keyboard shortcuts": dialogue.get_by_role("button", name="Close"),
     }
     for name, first in wanted.items():

@@ -68,7 +68,7 @@ def test_a_subscription_to_what_nobody_publishes_is_reported_with_its_place(
     action.write_text(action.read_text().replace('"/scan"', '"/lidar/scan"'))
     shutil.rmtree(project / "launch")
     [line] = [line for line in said("run", project, "--duration", "9", *how).splitlines() if "/lidar" in line]
-    assert line.startswith("actions/CheckObstacle.py:23:1: /lidar/scan: Nothing arrives: ")
+    assert line.startswith("actions/CheckObstacle.py:24:1: /lidar/scan: Nothing arrives: ")
     assert line.endswith(
         "sensor_msgs/msg/LaserScan is published on /scan: subscribe to that, or remap the name."
     )

@@ -97,7 +97,7 @@ def test_the_same_question_is_answered_once(make_pool):
 
 
 def does(pool, number):
-    """Asks for work until it is done, which may take a busy machine over 3 s; what was late is not asked again."""
+    """Asks for work until it is done: a busy machine may take over 3 s. What was late is not asked again."""
     end_s = time.monotonic() + PATIENCE_S
     while True:
         try:

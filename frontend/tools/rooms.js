@@ -13,6 +13,7 @@ const MOST = 20;
 /** The folders that may have more modules, each with its reason. */
 const LARGE = {
   'src/model': 'each module is one pure part of the tree (rules, layout, ports, undo …), read by its name',
+  'src/features/inspector': 'each module is one field or section of the inspector, read by its name',
 };
 
 const isModule = (name) => /\.tsx?$/.test(name) && !/\.test\.tsx?$/.test(name);

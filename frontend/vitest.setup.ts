@@ -4,7 +4,7 @@ import './harness/sentBodies';
 import '@testing-library/jest-dom/vitest';
 import { cleanup, configure } from '@testing-library/react';
 import React from 'react';
-import { afterEach } from 'vitest';
+import { afterEach, vi } from 'vitest';
 
 // jsdom has no layout: Mantine asks for these at start, and neither matters to a test.
 window.matchMedia ??= (query: string) =>
@@ -51,8 +51,17 @@ Element.prototype.scrollIntoView ??= () => undefined;
 Range.prototype.getClientRects ??= () => [] as unknown as DOMRectList;
 Range.prototype.getBoundingClientRect ??= () => new DOMRect();
 
+const PATIENCE_MS = 20_000;
+
 // Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
-configure({ defaultHidden: true, asyncUtilTimeout: 20_000 });
+configure({ defaultHidden: true, asyncUtilTimeout: PATIENCE_MS });
+
+// Vitest's own waits end after a second, which a busy machine may need.
+const { waitFor, waitUntil } = vi;
+const patient = (given?: number | object) =>
+  typeof given === 'number' ? given : { timeout: PATIENCE_MS, ...given };
+vi.waitFor = (callback, given) => waitFor(callback, patient(given));
+vi.waitUntil = (callback, given) => waitUntil(callback, patient(given));
 
 // React records where each element was made, for its warnings: a tenth of what rendering takes. Beyond so many
 // it stops by itself.

@@ -28,8 +28,8 @@ describe('ScriptInput', () => {
       await user.type(field, ';');
       expect(onChange).toHaveBeenCalledWith('x := 1;');
     }
-    expect(await screen.findByTestId('script')).toBeInTheDocument();
     await vi.waitUntil(() => document.querySelector('.cm-editor'));
+    expect(screen.getByTestId('script')).toBeInTheDocument();
     const editor = screen.getByRole('textbox', { name: 'While' });
     expect(editor).toHaveTextContent('x := 1');
     // Who types already continues in the editor, and not on the canvas.

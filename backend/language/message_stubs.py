@@ -27,6 +27,10 @@ _SCALARS: Final = {
     "string": "str",
     "wstring": "str",
 } | {f"{sign}int{bits}": "int" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+# Arrays of these are an `array.array`, or one of numpy if their length is fixed (rosidl_generator_py).
+_NUMBERS: Final = {"float": "float32", "double": "float64"} | {
+    name: name for sign in ("", "u") for bits in (8, 16, 32, 64) for name in (f"{sign}int{bits}",)
+}
 _SEQUENCE: Final = re.compile(r"^sequence<(.+?)(?:, *\d+)?>$")
 _ARRAY: Final = re.compile(r"^(.+)\[\d+\]$")
 _TEXT: Final = re.compile(r"^(w?string)<\d+>$")
@@ -69,7 +73,10 @@ def stub_of(folder: Path) -> str:
     used: set[str] = set()
     bodies = [_class(each, folder.parent.name, folder.name, used) for each in interfaces]
     imports = "".join(f"import {package}.msg\n" for package in sorted(used))
-    head = "from collections.abc import Iterable\nfrom typing import Any, ClassVar\n\n"
+    head = (
+        "import array as _array\nfrom collections.abc import Iterable\nfrom typing import Any, ClassVar\n\n"
+        "import numpy as _numpy\nimport numpy.typing as _typing\n"
+    )
     return head + imports + "\n" + "\n".join(bodies)
 
 
@@ -133,7 +140,11 @@ def _python_type(ros: str, package: str, used: set[str]) -> tuple[str, str]:
     """Returns the type of a field for reading, and its type for assignment."""
     if sequence := _SEQUENCE.match(ros) or _ARRAY.match(ros):
         inner = _python_type(sequence[1], package, used)[0]
-        return f"list[{inner}]", f"Iterable[{inner}]"
+        held = f"list[{inner}]"
+        if dtype := _NUMBERS.get(sequence[1]):
+            is_fixed = _ARRAY.match(ros) is not None
+            held = f"_typing.NDArray[_numpy.{dtype}]" if is_fixed else f"_array.array[{inner}]"
+        return held, f"Iterable[{inner}]"
     if text := _TEXT.match(ros):
         ros = text[1]
     if ros in _SCALARS:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import ast
 import sysconfig
 from pathlib import Path
@@ -42,10 +43,23 @@ def test_fields_have_types(stubs):
     }
     scan = members(stubs, "sensor_msgs", "LaserScan")
     assert (scan["ranges"], scan["angle_min"], scan["header"]) == (
-        "list[float]",
+        "_array.array[float]",
         "float",
         "std_msgs.msg.Header",
     )
+    assert members(stubs, "sensor_msgs", "Image")["data"] == "_array.array[int]"
+    odometry = members(stubs, "geometry_msgs", "PoseWithCovariance")
+    assert odometry["covariance"] == "_typing.NDArray[_numpy.float64]"
+    assert members(stubs, "nav_msgs", "Path")["poses"] == "list[geometry_msgs.msg.PoseStamped]"
+
+
+def test_arrays_of_numbers_have_the_types_that_the_classes_give_them():
+    from geometry_msgs.msg import PoseWithCovariance
+    from sensor_msgs.msg import Image, LaserScan
+
+    assert isinstance(Image().data, array.array)
+    assert isinstance(LaserScan().ranges, array.array)
+    assert PoseWithCovariance().covariance.dtype == "float64"
 
 
 def test_constants_and_services_are_there(stubs):

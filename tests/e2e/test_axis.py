@@ -215,11 +215,11 @@ def flags_are_set_seen_by_others_and_removed(studio: Studio, observer: Observer)
     expect(line).to_have_count(0)
     page.get_by_role("button", name="Undo", exact=True).last.click()
     expect(line).to_have_count(1)
-    assert [each["data"]["text"] for each in observer.of("flag")][1:] == [
-        "It turns here",
-        "",
-        "It turns here",
-    ]
+    said = ["It turns here", "", "It turns here"]
+    wait_until(
+        lambda: [each["data"]["text"] for each in observer.of("flag")][1:] == said,
+        "the others hear of the flag, of its end, and of its return",
+    )
     marks.get_by_role("button", name="Close the list of marks").click()
     studio.at("axis-strip").focus()
 

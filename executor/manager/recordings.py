@@ -144,7 +144,7 @@ def _part(joined: Path, begin: int, end: int | None) -> Response:
             body = file.read(most)
             tag = f'"{joined.stat().st_mtime_ns:x}-{total:x}"'
     except FileNotFoundError:
-        return _text(HTTPStatus.NOT_FOUND, "Ask for the begin of the recording first.")
+        return _text(HTTPStatus.NOT_FOUND, "Ask for the beginning of the recording first.")
     headers = Headers(
         {
             "Content-Type": "application/octet-stream",

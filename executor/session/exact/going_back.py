@@ -50,7 +50,7 @@ BY_HAND_BEFORE: Final = (
 )
 LIVE: Final = "A live run has no way back by one tick: its world and its program are not one."
 LIVE_HINT: Final = "Make the run exact in the menu beside Run, and press Run."
-FIRST: Final = "This is the begin of the run: there is no tick before."
+FIRST: Final = "This is the beginning of the run: there is no tick before."
 RESET: Final = "The world was reset here: there is no tick before in this run."
 BEAT_S: Final = 2.0
 

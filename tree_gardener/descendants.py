@@ -11,7 +11,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Final
 
-__all__ = ["RunChildren", "adopt_orphans", "descendants", "guarded"]
+__all__ = ["RunChildren", "adopt_orphans", "descendants", "end_with", "guarded"]
 
 BURIAL_S: Final = 0.002
 """Pause between two looks whether processes that were killed are gone."""
@@ -28,6 +28,17 @@ def _prctl(option: int, value: int) -> None:
 def adopt_orphans() -> None:
     """Makes this process the parent of descendants that lose their own parent, so that it can end them."""
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+
+
+def end_with(parent: int) -> None:
+    """Makes the kernel kill this process when its parent ends; ends it now if that has ended before.
+
+    Args:
+        parent: the process id of the parent, as the parent itself had read it.
+    """
+    _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(1)
 
 
 def descendants(pid: int) -> list[int]:
@@ -78,29 +89,37 @@ class _EndedError(BaseException):
     """This process was asked to end."""
 
 
-def guarded(main: Callable[[], int]) -> int:
+def guarded(main: Callable[[], int], parent: int) -> int:
     """Runs a program in a fork, and returns its exit status when all that it has started has ended.
 
     SIGTERM, or the end of this process's parent, ends the program. To be called before this process has
     threads; without Linux nothing is forked.
+
+    Args:
+        main: the program; it returns its exit status.
+        parent: the process id of this process's parent, as that had read it: it may have ended before this
+            process could ask.
     """
     if not hasattr(os, "pidfd_open"):
         return main()
     children = RunChildren()
     before = signal.signal(signal.SIGTERM, _ask_to_end)
     program, status = -1, 128 + signal.SIGTERM
-    with contextlib.suppress(_EndedError):
-        parent = os.pidfd_open(os.getppid())
+    own = os.getpid()
+    with contextlib.suppress(_EndedError, ProcessLookupError):
+        watched = os.pidfd_open(parent)
+        if os.getppid() != parent:
+            raise _EndedError
         program = os.fork()
         if program != 0:
-            ends = {parent, own := os.pidfd_open(program)}
-            if own in select.select(ends, [], [])[0]:
+            ends = {watched, its := os.pidfd_open(program)}
+            if its in select.select(ends, [], [])[0]:
                 status = os.waitstatus_to_exitcode(os.waitpid(program, 0)[1])
     if program == 0:
         signal.signal(signal.SIGTERM, before)
-        os.close(parent)
+        os.close(watched)
         os.setpgid(0, 0)  # a signal to its group does not reach the process that ends it
-        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        end_with(own)
         return main()
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     children.end()

@@ -9,7 +9,7 @@ import signal
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
-from tree_gardener.descendants import adopt_orphans
+from tree_gardener.descendants import adopt_orphans, end_with
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +20,6 @@ __all__ = [
     "TRACE_SIGNAL",
     "adopt_orphans",
     "confine_reader",
-    "die_with",
     "die_with_parent",
     "forks_survive",
 ]
@@ -28,15 +27,8 @@ __all__ = [
 INTERRUPT_SIGNAL: Final = signal.SIGUSR1
 TRACE_SIGNAL: Final = signal.SIGUSR2
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
-_PR_SET_PDEATHSIG: Final = 1
 _copying: Final[list[bool]] = []
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000
-
-
-def _prctl(option: int, value: int) -> None:
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.prctl(option, ctypes.c_ulong(value), 0, 0, 0) != 0:
-        raise OSError(ctypes.get_errno(), "prctl failed")
 
 
 def die_with_parent() -> None:
@@ -44,17 +36,14 @@ def die_with_parent() -> None:
 
     If the parent ended before the call, its id in the environment shows that, and this process ends.
     """
-    _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    expected = os.environ.pop(PARENT_VARIABLE, "")
-    if expected and os.getppid() != int(expected):
-        os._exit(1)
+    end_with(int(os.environ.pop(PARENT_VARIABLE, os.getppid())))
     # Forked children do not inherit the setting, so each sets it again.
     os.register_at_fork(after_in_child=_die_too)
 
 
 def _die_too() -> None:
     if not _copying:
-        die_with(signal.SIGKILL)
+        end_with(os.getppid())
 
 
 @contextmanager
@@ -65,11 +54,6 @@ def forks_survive() -> Iterator[None]:
         yield
     finally:
         _copying.pop()
-
-
-def die_with(number: signal.Signals) -> None:
-    """Makes the kernel send this process a signal when its present parent ends."""
-    _prctl(_PR_SET_PDEATHSIG, number)
 
 
 def confine_reader(memory_bytes: int, seconds: int, written_bytes: int, *, children: bool = False) -> None:

@@ -10,14 +10,14 @@ import contextlib
 import ctypes
 import fcntl
 import os
-import signal
 import socket
 import stat
 import time
 from pathlib import Path
 from typing import Final
 
-from executor.supervision.confine import die_with, forks_survive
+from executor.supervision.confine import forks_survive
+from tree_gardener.descendants import end_with
 
 __all__ = ["SNAPSHOT_NAME", "fork_away", "forked_copy", "name_process", "renew_files", "stand_alone"]
 
@@ -69,9 +69,7 @@ def forked_copy(parent_pid: int) -> None:
         if time.monotonic() > until_s:
             os._exit(1)  # the manager is gone
         time.sleep(0.001)
-    die_with(signal.SIGKILL)
-    if os.getppid() != parent_pid:
-        os._exit(1)
+    end_with(parent_pid)
 
 
 def renew_files() -> None:

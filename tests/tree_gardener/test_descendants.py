@@ -28,7 +28,7 @@ def main():
 
 @contextlib.contextmanager
 def started(then: str) -> Iterator[tuple[subprocess.Popen[str], list[int]]]:
-    source = f"{HEAD}    {then}\nsys.exit(guarded(main))\n"
+    source = f"{HEAD}    {then}\nsys.exit(guarded(main, {os.getpid()}))\n"
     with subprocess.Popen([sys.executable, "-c", source], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         yield process, [int(word) for word in process.stdout.readline().split()]
@@ -48,3 +48,11 @@ def test_a_program_that_does_not_end_is_ended_with_its_children() -> None:
         process.send_signal(signal.SIGTERM)
         process.wait()
         assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
+
+
+def test_a_program_whose_parent_ended_before_it_could_ask_is_not_run() -> None:
+    with subprocess.Popen(["true"]) as ended:
+        pass
+    source = f"{HEAD}\nsys.exit(guarded(main, {ended.pid}))\n"
+    found = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=False)
+    assert (found.stdout, found.stderr, found.returncode) == ("", "", 128 + signal.SIGTERM)

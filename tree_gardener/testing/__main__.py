@@ -6,4 +6,4 @@ from tree_gardener.descendants import guarded
 from tree_gardener.testing.apart import serve
 
 if __name__ == "__main__":
-    sys.exit(guarded(serve))
+    sys.exit(guarded(serve, int(sys.argv[2])))

@@ -78,7 +78,7 @@ def _lines(document: dict[str, Any], wall_s: float) -> Iterator[dict[str, Any] |
     reading, writing = os.pipe()
     environment = {**os.environ, "PYTHONHASHSEED": "0"}
     with subprocess.Popen(
-        [sys.executable, "-m", "tree_gardener.testing", str(writing)],
+        [sys.executable, "-m", "tree_gardener.testing", str(writing), str(os.getpid())],
         stdin=subprocess.PIPE,
         stdout=sys.stderr if _has_descriptor(sys.stderr) else subprocess.DEVNULL,
         pass_fds=(writing,),
@@ -158,7 +158,7 @@ def _end_of(pid: int) -> Iterator[list[int]]:
 
 
 def serve() -> int:
-    """Runs the job on standard input; results go to the file descriptor that the argument names."""
+    """Runs the job on standard input; results go to the file descriptor that the first argument names."""
     with os.fdopen(int(sys.argv[1]), "w", encoding="utf-8") as pipe:
         os.set_inheritable(pipe.fileno(), False)  # noqa: FBT003 - its only form
         document = json.load(sys.stdin)

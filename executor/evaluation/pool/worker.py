@@ -7,7 +7,6 @@ a picture context nor a module of the user. What a run does to itself, it does t
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import faulthandler
 import json
 import os
@@ -26,6 +25,7 @@ from executor.supervision.confine import TRACE_SIGNAL, adopt_orphans
 from executor.supervision.descendants import descendants
 from executor.supervision.scratch import Scratch
 from executor.supervision.signal_names import signal_name
+from tree_gardener.descendants import end_with
 
 if TYPE_CHECKING:
     import socket
@@ -45,7 +45,6 @@ MOST_WRITTEN: Final = 192 << 20
 """The most bytes in the folder of the actions of a sealed run, where no mount bounds it."""
 # A busy machine needs a while for the trace. It is written in pieces, so its first bytes say nothing yet.
 TRACE_S: Final = 5.0
-_PR_SET_PDEATHSIG: Final = 1
 _FRAME: Final = re.compile(rb'File "((?:actions|evaluations)/[^"\n]+)", line (\d+)')
 
 
@@ -122,11 +121,13 @@ def run_apart(job: Job, cell: Cell, *, inherited: int = -1) -> Done:
     scratch = Scratch()  # also removed if this process is killed
     trace = os.memfd_create("trace")
     reader, writer = os.pipe()
+    parent = os.getpid()
     pid = os.fork()
     if pid == 0:
         os.close(reader)
         if inherited >= 0:
             os.close(inherited)
+        end_with(parent)
         _run_child(job, cell, writer, trace, scratch.path)
     os.close(writer)
     try:
@@ -284,8 +285,6 @@ def _run_child(job: Job, cell: Cell, writer: int, trace: int, folder: Path) -> N
 
 
 def _confine(job: Job, trace: int, folder: Path) -> None:
-    libc: Any = ctypes.CDLL(None)
-    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     os.setpgid(0, 0)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     null = os.open(os.devnull, os.O_RDWR)

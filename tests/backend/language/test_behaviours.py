@@ -42,7 +42,14 @@ def test_a_real_leaf_runs_in_another_process_and_counts_in_the_coverage(report):
 
 
 def processes():
-    return set(psutil.Process().children(recursive=True))
+    """Returns those below this one that run; where it has adopted orphans, nobody buries them."""
+    return {process for process in psutil.Process().children(recursive=True) if lives(process)}
+
+
+def lives(process):
+    with suppress(psutil.NoSuchProcess):
+        return process.status() != psutil.STATUS_ZOMBIE
+    return False
 
 
 def with_tests(started):

@@ -1,13 +1,13 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit docs lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test lint-python lint-frontend generate
+.PHONY: audit docs lock-images mutants sbom help run test test-full test-docker lint format bench lock wheel clean setup setup-test lint-python lint-frontend generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
 SETUP_PYTHON := $(or $(PYTHON),$(shell command -v python3))
 BIN := .venv/bin
-# Hashes and no index address: a lock names no registry.
-LOCK := --quiet --upgrade --generate-hashes --no-header --no-annotate --python-version 3.11 --python-platform x86_64-manylinux_2_28
+# Hashes and no index address: a lock names no registry. The engine is installed from the clone.
+LOCK := --no-emit-package tree-gardener --quiet --upgrade --generate-hashes --no-header --no-annotate --python-version 3.11 --python-platform x86_64-manylinux_2_28
 
 help: ## shows this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -63,6 +63,10 @@ var/docs/installed: requirements-docs.lock
 	@var/docs/env/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
 	@touch $@
 
+wheel: setup ## builds the engine's wheel, `tree-gardener`, to var/wheels
+	@rm -rf var/build/tree_gardener
+	@$(BIN)/uv build --wheel --quiet --no-build-isolation --python $(BIN)/python --out-dir var/wheels tree_gardener
+
 bench: setup-test ## the benchmarks, side by side with their rivals
 	@$(BIN)/python -m tests.benchmarks
 
@@ -85,4 +89,4 @@ sbom: setup-test ## writes what the program is made of as CycloneDX, to var/sbom
 	@$(BIN)/python -m tests.tools.sbom var/sbom
 
 clean: ## removes everything that set-up and runs made, but for your projects in var/data
-	rm -rf .venv frontend/node_modules frontend/dist var/setup var/docs var/site .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf .venv frontend/node_modules frontend/dist var/setup var/docs var/site var/build var/wheels *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -61,7 +61,7 @@ def main(arguments: list[str]) -> None:
     steps = [
         python_step(),
         packages_step(goal),
-        own_package_step(),
+        own_packages_step(),
         bytecode_step(),
         node_step(),
         front_end_step(),
@@ -168,14 +168,16 @@ def uv_install() -> list[str]:
 OWN_OPTIONS = ["--no-deps", "--no-build-isolation", "--config-settings", "editable_mode=compat"]
 
 
-def own_package_step() -> Step:
-    """Returns the step that installs the `bt-studio` program of this clone."""
+def own_packages_step() -> Step:
+    """Returns the step that installs the distributions of this clone: the engine, and `bt-studio` on it."""
+    folders = [ROOT / "tree_gardener", ROOT]
+    editable = [word for folder in folders for word in ("--editable", str(folder))]
     return Step(
         "bt-studio",
         "installing bt-studio itself into .venv",
-        [ROOT / "pyproject.toml"],
+        [folder / "pyproject.toml" for folder in folders],
         VENV / "bin" / "bt-studio",
-        lambda: run([*uv_install(), *OWN_OPTIONS, "--editable", str(ROOT)]),
+        lambda: run([*uv_install(), *OWN_OPTIONS, *editable]),
     )
 
 

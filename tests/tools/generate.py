@@ -29,6 +29,8 @@ GENERATORS: Final = (
     [sys.executable, "-m", "tests.contracts.public_names"],
     # The pages that Django renders have the colours of the IDE; they are served without its build.
     ["cp", "frontend/src/ui/tokens.css", "backend/accounts/static/accounts/tokens.css"],
+    # A distribution holds its licence, and can take no file from outside of its folder.
+    ["cp", "LICENSE", "tree_gardener/LICENSE"],
 )
 
 

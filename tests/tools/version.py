@@ -1,7 +1,7 @@
 """Writes the version of `pyproject.toml` to its copies: `python -m tests.tools.version`.
 
 Images run from source and are not installed, so that `importlib.metadata` knows no version there.
-The engine has a version of its own (`tree_gardener/__init__.py`): exported packages compare it.
+The engine is a distribution with the same version: `bt-studio` requires it, and exported packages compare it.
 """
 
 from __future__ import annotations
@@ -17,11 +17,16 @@ PYTHON: Final = re.compile(r'^(__version__ = ")[^"]*(")', re.MULTILINE)
 NPM: Final = re.compile(r'^(  "version": ")[^"]*(")', re.MULTILINE)
 NPM_ROOT: Final = re.compile(r'^(      "version": ")[^"]*(")', re.MULTILINE)
 SITE: Final = re.compile(r'^(site_name = "BT Studio )[^"]*(")', re.MULTILINE)
+PROJECT: Final = re.compile(r'^(version = ")[^"]*(")', re.MULTILINE)
+REQUIRED: Final = re.compile(r'^(  "tree-gardener==)[^"]*(")', re.MULTILINE)
 COPIES: Final[dict[str, list[re.Pattern[str]]]] = {
     "backend/__init__.py": [PYTHON],
     "executor/__init__.py": [PYTHON],
     "frontend/package.json": [NPM],
     "frontend/package-lock.json": [NPM, NPM_ROOT],
+    "pyproject.toml": [REQUIRED],
+    "tree_gardener/__init__.py": [PYTHON],
+    "tree_gardener/pyproject.toml": [PROJECT],
     "zensical.toml": [SITE],
 }
 

@@ -36,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with _published(tree, options):
             return _run(tree, options)
-    except (GrootError, ModuleNotFoundError) as error:
+    except (GrootError, ImportError) as error:
         print(error, file=sys.stderr)
         return 2
     except TickError as error:
@@ -102,7 +102,9 @@ def _run(tree: Tree, options: argparse.Namespace) -> int:
 
 
 def _run_on_ros(tree: Tree, options: argparse.Namespace) -> int:
-    import rclpy  # noqa: PLC0415 - only with --ros
+    import tree_gardener.ros_wheels  # noqa: F401, PLC0415 - only with --ros, and before rclpy
+
+    import rclpy  # noqa: PLC0415
 
     from tree_gardener.ros import RosClock, RosRunner  # noqa: PLC0415
 

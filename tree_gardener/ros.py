@@ -4,6 +4,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 from tree_gardener.errors import TickError, in_full
 from tree_gardener.node import Node
 from tree_gardener.runner import Overrun, Runner

@@ -6,6 +6,8 @@ import weakref
 from collections.abc import Callable
 from typing import Any, Final
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.duration import Duration
 

@@ -8,6 +8,8 @@ action, it goes through error processing and is unconfigured again.
 from collections.abc import Callable
 from typing import Any
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.lifecycle.node import LifecycleNodeMixin

@@ -11,6 +11,8 @@ import weakref
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 import rclpy
 import rclpy.utilities
 from rcl_interfaces.msg import SetParametersResult

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, Final
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 
 from tree_gardener.blackboard import Blackboard

@@ -7,6 +7,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
+import tree_gardener.ros_wheels  # noqa: F401 - refuses two ROS before rclpy is loaded
+
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 

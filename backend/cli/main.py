@@ -6,13 +6,14 @@ import importlib
 import tempfile
 import traceback
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command as command_of
 
 from backend.cli.shared.errors import WORK_FAILED, CliError, exit_with
+from backend.cli.shared.one_ros import require_one_ros
 from backend.cli.shared.removed import refuse_removed
 
 if TYPE_CHECKING:
@@ -54,6 +55,8 @@ VERBS: Final[dict[str, Verb]] = {
     "backup": Verb("backup", "backup"),
     "restore": Verb("backup", "restore"),
 }
+# These load rclpy, in this process or in one that they start.
+ON_ROS: Final = frozenset({"serve", "open", "run", "dap", "evaluate", "tune", "manager"})
 
 
 class VerbCommand(TyperCommand):
@@ -65,6 +68,12 @@ class VerbCommand(TyperCommand):
         for word in options:
             refuse_removed(str(self.name), word.partition("=")[0])
         return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: Context) -> Any:
+        """Runs the command, unless it needs ROS and finds two."""
+        if self.name in ON_ROS:
+            require_one_ros()
+        return super().invoke(ctx)
 
 
 class VerbGroup(TyperGroup):

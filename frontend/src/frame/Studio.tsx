@@ -66,6 +66,7 @@ import { FileDrop } from '@/features/importing/FileDrop';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
 import { openLesson } from '@/workspace/lessons';
+import { followSelection } from '@/workspace/lessonTurns';
 import { endPresentation, usePresentation } from '@/workspace/presentation';
 import { PresentationBar } from './presentation/PresentationBar';
 import { RestoredNotice } from './RestoredNotice';
@@ -151,6 +152,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       followHeat(),
       followPython(),
       followRobots(),
+      followSelection(),
       registerAxisCommands(),
       followPresent(),
       followPast(),

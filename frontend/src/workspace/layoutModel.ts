@@ -115,20 +115,6 @@ const global: NonNullable<IJsonModel['global']> = {
   tabSetMinWidth: 120,
 };
 
-/**
- * The weights of the documents and of the panel that is opened beside them: a lesson is narrower than XML.
- */
-const WEIGHTS: Partial<Record<PanelId, readonly [number, number]>> = { lesson: [60, 40] };
-
-function addBesideEditors(model: Model, tab: IJsonTabNode): void {
-  model.doAction(Actions.addTab(tab, EDITORS, DockLocation.RIGHT, -1, true));
-  const weights = WEIGHTS[tab.id as PanelId];
-  const beside = model.getNodeById(tab.id ?? '')?.getParent();
-  if (!weights || !beside) return;
-  model.doAction(Actions.updateNodeAttributes(EDITORS, { weight: weights[0] }));
-  model.doAction(Actions.updateNodeAttributes(beside.getId(), { weight: weights[1] }));
-}
-
 /** Opens or closes an optional panel, such as the XML beside the canvas. */
 export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void {
   if (model.getNodeById(id)) {
@@ -138,10 +124,10 @@ export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void
   const tab = { ...panel(id), enableClose: true };
   const below = width === 'narrow' ? model.getNodeById('viewer3d')?.getParent() : undefined;
   if (below) model.doAction(Actions.addTab(tab, below.getId(), DockLocation.CENTER, -1, true));
-  else addBesideEditors(model, tab);
+  else model.doAction(Actions.addTab(tab, EDITORS, DockLocation.RIGHT, -1, true));
 }
 
-/** The panel beside which one that the basic layout lacks is opened, once it is used. */
+/** The panel beside which one that a layout lacks is opened, once it is used. */
 const HOMES: Partial<Record<PanelId, PanelId>> = {
   explorer: 'palette',
   search: 'palette',
@@ -156,6 +142,7 @@ const HOMES: Partial<Record<PanelId, PanelId>> = {
   profile: 'problems',
   blackboard: 'inspector',
   camera: 'video',
+  lesson: 'inspector',
 };
 
 /** Opens a panel that the layout lacks; returns whether there is a place for it. */

@@ -22,10 +22,10 @@ beforeEach(() => {
 });
 
 describe('openLesson', () => {
-  it('opens the lesson of a project that has one, beside the tree', () => {
+  it('opens the lesson of a project that has one beside the inspector, so that the tree keeps its width', () => {
     const model = open();
     openLesson('p');
-    expect(lessonOf(model)?.getParent()?.getId()).not.toBe('editors');
+    expect(lessonOf(model)?.getParent()).toBe(model.getNodeById('inspector')?.getParent());
   });
 
   it('opens nothing for a project without a lesson', () => {

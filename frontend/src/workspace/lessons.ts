@@ -3,7 +3,7 @@ import { create } from 'zustand';
 import { lessonPath } from '@/model/lesson/find';
 import { useProjectStore } from '@/store/project';
 import type { PanelId } from './layoutModel';
-import { showPanel, togglePanel, useTabs } from './tabs';
+import { showPanel } from './tabs';
 
 const KEY = 'bts.lessons';
 const LESSON: PanelId = 'lesson';
@@ -38,11 +38,8 @@ function keep(next: Partial<Kept>): void {
 /** Sets whether lessons open by themselves. */
 export const setOpensLessons = (opens: boolean): void => keep({ opens });
 
-/** Opens the lesson beside the tree, or brings it to the front. */
-export function showLesson(): void {
-  if (useTabs.getState().model?.getNodeById(LESSON)) showPanel(LESSON);
-  else togglePanel(LESSON);
-}
+/** Opens the lesson beside the inspector, where tree and code keep their width, or brings it to the front. */
+export const showLesson = (): void => showPanel(LESSON);
 
 /** Opens the lesson of a project, if it has one, unless the user closed it there or turned lessons off. */
 export function openLesson(projectId: string): void {

@@ -2,7 +2,7 @@ import { Actions, Orientation, TabNode, TabSetNode, type Model } from 'flexlayou
 import type { PanelId } from './layoutModel';
 
 /** The height in px, with the bar of tabs, that panels get when they are shown first. */
-const ROOM: Partial<Record<PanelId, number>> = { evaluate: 340, topics: 270 };
+const ROOM: Partial<Record<PanelId, number>> = { evaluate: 340, topics: 270, lesson: 360 };
 /** The height in px that what lies above or below keeps. */
 const KEPT_PX = 160;
 

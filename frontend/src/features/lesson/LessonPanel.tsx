@@ -8,6 +8,7 @@ import { parseLesson } from '@/model/lesson/parse';
 import { LargeFile } from '@/features/code/LargeFile';
 import { useProjectStore } from '@/store/project';
 import { setOpensLessons, useLessons } from '@/workspace/lessons';
+import { actForLesson } from '@/workspace/lessonTurns';
 import classes from './lesson.module.css';
 import { LessonText } from './LessonText';
 import { perform, type Outcome } from './perform';
@@ -51,18 +52,17 @@ function Lesson({ text }: { readonly text: string }) {
   return (
     <div className={classes['panel']} data-testid="lesson">
       <section className={classes['page']} aria-label={t('label')}>
-        <LessonText blocks={blocks} onTry={(act) => setOutcome(perform(act))} />
-      </section>
-      <div className={classes['foot']}>
-        <div role="status" className={classes['outcome']} data-outcome={outcome?.kind}>
-          {outcome ? <Said outcome={outcome} /> : null}
-        </div>
+        <LessonText blocks={blocks} onTry={(act) => setOutcome(actForLesson(() => perform(act)))} />
         <Checkbox
           size="xs"
+          mt="lg"
           label={t('opens')}
           checked={opensLessons}
           onChange={(event) => setOpensLessons(event.currentTarget.checked)}
         />
+      </section>
+      <div role="status" className={classes['outcome']} data-outcome={outcome?.kind}>
+        {outcome ? <Said outcome={outcome} /> : null}
       </div>
     </div>
   );

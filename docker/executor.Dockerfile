@@ -40,6 +40,12 @@ COPY backend/language/__init__.py backend/language/library.py backend/language/m
 RUN /opt/bt-studio/.venv/bin/python -m backend.language.library \
       /opt/bt-studio/.venv/lib/python3.11/site-packages /opt/bt-studio /opt/bt-studio/library
 
+# The engine is a distribution of its own.
+FROM tools AS engine
+COPY tree_gardener tree_gardener
+RUN /build/tools/bin/uv pip install -q --no-deps --no-build-isolation --python /build/tools/bin/python \
+      --target /build/engine ./tree_gardener && rm -f /build/engine/.lock
+
 FROM python
 RUN apt-get update -q && DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends libegl1 libgl1-mesa-dri && rm -rf /var/lib/apt/lists/* /var/log/*
@@ -49,7 +55,7 @@ COPY --from=packages /opt/bt-studio/.venv .venv
 COPY --from=packages /opt/bt-studio/THIRD-PARTY-NOTICES ./
 COPY LICENSE ./
 COPY --from=packages /opt/bt-studio/library library
-COPY tree_gardener tree_gardener
+COPY --from=engine /build/engine/ ./
 COPY translator translator
 COPY executor executor
 RUN .venv/bin/python -m compileall -q executor translator tree_gardener

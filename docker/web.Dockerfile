@@ -37,6 +37,12 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
       --no-deps --require-hashes -r web.lock && \
     /opt/bt-studio/.venv/bin/python notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES
 
+# The engine is a distribution of its own.
+FROM tools AS engine
+COPY tree_gardener tree_gardener
+RUN /build/tools/bin/uv pip install -q --no-deps --no-build-isolation --python /build/tools/bin/python \
+      --target /build/engine ./tree_gardener && rm -f /build/engine/.lock
+
 FROM python
 RUN useradd --uid 10002 --create-home --shell /usr/sbin/nologin studio && \
     install -d -o studio -g studio -m 0700 /var/lib/bt-studio
@@ -45,7 +51,7 @@ COPY --from=packages /opt/bt-studio/.venv .venv
 COPY --from=packages /opt/bt-studio/THIRD-PARTY-NOTICES ./
 COPY LICENSE ./
 COPY --from=frontend /build/frontend/dist frontend/dist
-COPY tree_gardener tree_gardener
+COPY --from=engine /build/engine/ ./
 COPY translator translator
 COPY examples examples
 COPY executor/universes executor/universes

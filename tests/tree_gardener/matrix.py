@@ -3,7 +3,7 @@
     python -m tests.tree_gardener.matrix
 
 Uses the interpreters 3.10 to 3.13 that pyenv or the PATH offer, each in a fresh environment outside of the
-clone.
+clone. In another one pip installs the engine's wheel with what it requires, and the corpus runs on it.
 Left out are the tests that need what those environments lack: the command line, ROS, behaviortreepy.
 """
 
@@ -11,28 +11,20 @@ Left out are the tests that need what those environments lack: the command line,
 
 from __future__ import annotations
 
-import os
-import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-VERSIONS = ("3.10", "3.11", "3.12", "3.13")
+from tests.tree_gardener.distribution import ROOT, VERSIONS, build_wheel, interpreter, run_corpus
+
+EVERY = 1_000_000
 PY_TREES = ("py_trees==2.3.*", "py_trees")
 TESTS = (
     *("test_actions", "test_blackboard", "test_document", "test_forest", "test_hooks", "test_loading"),
     *("test_observe", "test_ports", "test_registry", "test_runner", "test_tree", "test_values", "test_views"),
     *("conformance", "controls", "decorators", "generated", "leaves", "script"),
 )
-
-
-def interpreter(version: str) -> str | None:
-    """The path of a Python, or None."""
-    found = shutil.which(f"python{version}")
-    pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
-    return next((str(path) for path in sorted(pyenv.glob(f"{version}.*/bin/python"))), found)
 
 
 def run(python: str, py_trees: str, folder: Path) -> bool:
@@ -59,8 +51,26 @@ def run(python: str, py_trees: str, folder: Path) -> bool:
     return done.returncode == 0
 
 
+def run_wheel(python: str, py_trees: str, folder: Path, wheel: Path) -> bool:
+    """Runs the corpus on the installed wheel."""
+    subprocess.run([python, "-m", "venv", folder], check=True)
+    own = folder / "bin" / "python"
+    install = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel, py_trees]
+    subprocess.run(install, check=True)
+    subprocess.run([own, "-m", "pip", "check"], check=True)
+    found = run_corpus(own, folder, most=EVERY)
+    print(f"{sum(found['counts'].values())} cases on the wheel, {len(found['failed'])} failed", flush=True)
+    return not found["failed"]
+
+
 def main() -> int:
     """Runs all combinations; returns the exit status."""
+    with tempfile.TemporaryDirectory() as folder:
+        return run_all(build_wheel(Path(folder)))
+
+
+def run_all(wheel: Path) -> int:
+    """Runs all combinations with a wheel; returns the exit status."""
     failed = []
     for version in VERSIONS:
         python = interpreter(version)
@@ -70,7 +80,9 @@ def main() -> int:
         for py_trees in PY_TREES:
             print(f"== Python {version}, {py_trees}", flush=True)
             with tempfile.TemporaryDirectory() as folder:
-                if not run(python, py_trees, Path(folder) / "venv"):
+                passed = run(python, py_trees, Path(folder) / "venv")
+                passed = run_wheel(python, py_trees, Path(folder) / "alone", wheel) and passed
+                if not passed:
                     failed.append(f"Python {version}, {py_trees}")
     print("failed: " + "; ".join(failed) if failed else "all passed")
     return 1 if failed else 0

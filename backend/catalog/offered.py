@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from translator import inspect_action
+from translator.nav2.sources import nav2_source
+from translator.nav2.tables import table
+
+if TYPE_CHECKING:
+    from translator.nav2.distributions import Distribution
 
 
-@lru_cache(maxsize=1)
-def offered_actions() -> tuple[dict[str, Any], ...]:
-    """Returns the declaration and the source of each node, by name."""
-    from tree_gardener.nav2_library import source_of, table  # noqa: PLC0415 - the engine loads py_trees
-
-    sources = {name: source for name in sorted(table()) if (source := source_of(name)) is not None}
+@cache
+def offered_actions(distribution: Distribution) -> tuple[dict[str, Any], ...]:
+    """Returns the declaration and the source of each node of a ROS distribution, by name."""
+    names = sorted(table(distribution))
+    sources = {name: source for name in names if (source := nav2_source(name, distribution)) is not None}
     return tuple(
         inspect_action(source, f"actions/{name}.py").to_json() | {"text": source}
         for name, source in sources.items()

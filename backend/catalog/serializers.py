@@ -8,6 +8,7 @@ from rest_framework import serializers
 
 from backend.core.rest.fields import ObjectField
 from backend.projects.api.serializers import ActionSerializer
+from translator.nav2.distributions import DEFAULT, DISTRIBUTIONS
 
 
 class NodesSerializer(serializers.Serializer[Any]):
@@ -103,6 +104,12 @@ class BehaviourListSerializer(serializers.Serializer[Any]):
     """The built-in library."""
 
     items = BehaviourSerializer(many=True)
+
+
+class OfferedQuerySerializer(serializers.Serializer[Any]):
+    """The parameters of the list of Nav2's nodes."""
+
+    ros_distro = serializers.ChoiceField(choices=DISTRIBUTIONS, default=DEFAULT)
 
 
 class OfferedActionSerializer(ActionSerializer):

@@ -12,6 +12,7 @@ from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
+from backend.accounts.api.requests import parsed
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.catalog import library, offered, queries
 from backend.catalog import serializers as s
@@ -161,11 +162,15 @@ class OfferedActions(APIView):
     open_to_guests = True
 
     @extend_schema(
-        operation_id="list_offered_actions", responses=s.OfferedActionListSerializer, tags=["catalog"]
+        operation_id="list_offered_actions",
+        parameters=[s.OfferedQuerySerializer],
+        responses=s.OfferedActionListSerializer,
+        tags=["catalog"],
     )
     def get(self, request: Request) -> Response:
-        """Lists the nodes of Nav2, each with the source that a project takes."""
-        return Response({"items": offered.offered_actions()})
+        """Lists the nodes of Nav2 in a ROS distribution, each with the source that a project takes."""
+        asked = parsed(s.OfferedQuerySerializer, request.query_params.dict())
+        return Response({"items": offered.offered_actions(asked["ros_distro"])})
 
 
 def _text(path: Path | None, content_type: str, missing: str) -> HttpResponse:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from translator import Tree
+    from translator.nav2.distributions import Distribution
     from translator.tree_text import TreeText
 
 Files = dict[str, bytes]
@@ -31,11 +32,12 @@ def warm_up() -> None:
 def report(files: Files) -> Answer:
     """Returns the problems and the actions of a project."""
     import translator  # noqa: PLC0415 - as above
+    from translator.nav2.models import distribution_for  # noqa: PLC0415 - as above
 
     try:
         project = translator.load(files)
     except translator.TranslatorError as error:
-        return {"diagnostics": _told(error), "actions": []}
+        return {"diagnostics": _told(error), "actions": [], "ros_distro": None}
     checked = translator.check(project)
     diagnostics = [found.to_json() for found in checked]
     diagnostics += _programs(files)
@@ -43,7 +45,24 @@ def report(files: Files) -> Answer:
         from backend.workers.behaviours import problems  # noqa: PLC0415 - it loads the engine
 
         diagnostics += problems(project, checked)
-    return {"diagnostics": diagnostics, "actions": [action.to_json() for action in project.actions.values()]}
+    return {
+        "diagnostics": diagnostics,
+        "actions": [action.to_json() for action in project.actions.values()],
+        "ros_distro": distribution_for(project),
+    }
+
+
+def changed_distribution(files: Files, *, ros_distro: Distribution) -> Answer:
+    """Returns the files of a project for another ROS distribution, and what its Nav2 lacks."""
+    from translator.nav2.change import changed  # noqa: PLC0415 - as above
+
+    change = changed(files, ros_distro)
+    written = [(path, None if raw is None else raw.decode()) for path, raw in change.files.items()]
+    return {
+        "files": [{"path": path, "content": content} for path, content in written],
+        "lacks": [str(lack) for lack in change.lacks],
+        "kept": change.kept,
+    }
 
 
 def _programs(files: Files) -> list[Answer]:
@@ -213,6 +232,6 @@ JOBS: Final[dict[str, Callable[..., Answer]]] = {
             xsd,
             opened,
         ),
-        *(inspect, write_tree, read_tree, pack, diff, thumbnail, offered.uses),
+        *(changed_distribution, inspect, write_tree, read_tree, pack, diff, thumbnail, offered.uses),
     )
 } | {kind: _refusing(bundles.whole(kind)) for kind in bundles.KINDS}

@@ -19,6 +19,7 @@ from backend.core.rest.fields import (
 )
 from backend.projects.storage.changes import Content, FileChange
 from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
+from translator.nav2.distributions import DISTRIBUTIONS
 
 MAX_REVISION = 2**31 - 1
 
@@ -92,6 +93,12 @@ class ReportSerializer(serializers.Serializer[Any]):
 
     diagnostics = DiagnosticSerializer(many=True)
     actions = ActionSerializer(many=True)
+    ros_distro = serializers.ChoiceField(
+        choices=DISTRIBUTIONS,
+        allow_null=True,
+        help_text="The one that the project states, or else the one that has the nodes of Nav2 in its trees; "
+        "null if the project cannot be read.",
+    )
     checked = serializers.BooleanField(help_text=CHECKED)
 
 
@@ -308,6 +315,32 @@ class CheckSerializer(StrictSerializer):
     """Files that differ from the stored ones, for a check before saving."""
 
     files = OverlayFileSerializer(many=True, required=False, default=list)
+
+
+class DistributionSerializer(CheckSerializer):
+    """The ROS distribution that a project shall be for, and its unsaved files."""
+
+    ros_distro = serializers.ChoiceField(choices=DISTRIBUTIONS)
+
+
+class WrittenFileSerializer(serializers.Serializer[Any]):
+    """A file as it shall be; `content` is null if it goes."""
+
+    path = serializers.CharField()
+    content = serializers.CharField(allow_null=True)
+
+
+class DistributionChangeSerializer(serializers.Serializer[Any]):
+    """The result of a change of the ROS distribution; nothing is written."""
+
+    files = WrittenFileSerializer(many=True)
+    lacks = serializers.ListField(
+        child=serializers.CharField(),
+        help_text="Nodes and ports of the trees that Nav2 does not have there; they stay as they are.",
+    )
+    kept = serializers.ListField(
+        child=serializers.CharField(), help_text="Nodes whose source was changed by hand; it stays."
+    )
 
 
 class InspectActionSerializer(StrictSerializer):

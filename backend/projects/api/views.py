@@ -281,6 +281,27 @@ class Projects(ResourceViewSet):
         return checking.reported(self, request, Response({}), lambda: files, robots)
 
     @extend_schema(
+        operation_id="change_distribution",
+        request=s.DistributionSerializer,
+        responses=s.DistributionChangeSerializer,
+        tags=["projects"],
+    )
+    @action(detail=True, methods=["post"])
+    def distribution(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the files of the project for another ROS distribution, with these unsaved files.
+
+        Nodes and ports of Nav2 get the names that they have there. Nothing is written.
+        """
+        asked = parsed(s.DistributionSerializer, request.data)
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = checking.files_of(project)
+        for overlay in asked["files"]:
+            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        return checking.answered(
+            *(self, request, "changed_distribution", Response), files=files, ros_distro=asked["ros_distro"]
+        )
+
+    @extend_schema(
         operation_id="test_project",
         request=s.CheckSerializer,
         responses={200: TestReportSerializer} | NOT_SOUND,

@@ -197,7 +197,7 @@ def _report(done: Future[Any]) -> dict[str, Any]:
 
     log.error("a project could not be checked", exc_info=error)
     found = diagnostic("BT0009", Place(), problem=type(error).__name__)
-    return {"actions": [], "diagnostics": [found.to_json()], "checked": False}
+    return {"actions": [], "diagnostics": [found.to_json()], "ros_distro": None, "checked": False}
 
 
 def owner(request: Request) -> str:

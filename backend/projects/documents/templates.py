@@ -10,6 +10,7 @@ from backend.config.environment import environment
 from backend.core.problems import InvalidInputError
 from backend.projects.storage.conditions import conditions
 from backend.projects.storage.manifest import MANIFEST, write
+from translator.nav2.distributions import DEFAULT
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -74,6 +75,7 @@ def _empty_project() -> dict[str, bytes]:
         "main_tree": "MainTree",
         "tick_hz": 20,
         "universe": "walled_room",
+        "ros_distro": DEFAULT,
         "on_finish": "stop",
         "on_error": "stop",
         "license": "Apache-2.0",

@@ -28,7 +28,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Lists the nodes of Nav2, each with the source that a project takes. */
+        /** @description Lists the nodes of Nav2 in a ROS distribution, each with the source that a project takes. */
         get: operations["list_offered_actions"];
         put?: never;
         post?: never;
@@ -514,6 +514,27 @@ export interface paths {
         get: operations["get_cpp_package"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/distribution": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * @description Returns the files of the project for another ROS distribution, with these unsaved files.
+         *
+         *     Nodes and ports of Nav2 get the names that they have there. Nothing is written.
+         */
+        post: operations["change_distribution"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1831,6 +1852,19 @@ export interface components {
             newer: number;
             files: components["schemas"]["FileDiff"][];
         };
+        /** @description What a change of the ROS distribution does; nothing is written. */
+        DistributionChange: {
+            files: components["schemas"]["WrittenFile"][];
+            /** @description Nodes and ports of the trees that Nav2 does not have there; they stay as they are. */
+            lacks: string[];
+            /** @description Nodes whose source was changed by hand; it stays. */
+            kept: string[];
+        };
+        /** @description The ROS distribution that a project shall be for, and its unsaved files. */
+        DistributionRequest: {
+            files?: components["schemas"]["OverlayFileRequest"][];
+            ros_distro: components["schemas"]["RosDistroEnum"];
+        };
         /** @description A draft: text that this user has typed and not saved. */
         Draft: {
             path: string;
@@ -2272,6 +2306,7 @@ export interface components {
                 [key: string]: unknown;
             }[];
         };
+        NullEnum: null;
         /** @description The trees that one project offers to others. */
         Offer: {
             /** Format: uuid */
@@ -2567,6 +2602,8 @@ export interface components {
         Report: {
             diagnostics: components["schemas"]["Diagnostic"][];
             actions: components["schemas"]["Action"][];
+            /** @description The one that the project states, or else the one that has the nodes of Nav2 in its trees; null if the project cannot be read. */
+            ros_distro: components["schemas"]["RosDistroEnum"] | components["schemas"]["NullEnum"];
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
         };
@@ -2605,6 +2642,8 @@ export interface components {
             items: components["schemas"]["Revision"][];
             next_before: number | null;
         };
+        /** @enum {string} */
+        RosDistroEnum: "humble" | "jazzy" | "kilted" | "lyrical";
         /** @description A stored run. */
         Run: {
             /** Format: uuid */
@@ -2918,6 +2957,11 @@ export interface components {
             /** @description The nodes of `base`, in the order of the text. */
             ids?: string[];
         };
+        /** @description A file as it shall be; `content` is null if it goes. */
+        WrittenFile: {
+            path: string;
+            content: string | null;
+        };
     };
     responses: never;
     parameters: never;
@@ -2961,7 +3005,9 @@ export interface operations {
     };
     list_offered_actions: {
         parameters: {
-            query?: never;
+            query?: {
+                ros_distro?: "humble" | "jazzy" | "kilted" | "lyrical";
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -4095,6 +4141,41 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_distribution: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DistributionRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DistributionChange"];
                 };
             };
             /** @description A problem document. */

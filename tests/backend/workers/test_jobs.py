@@ -15,7 +15,7 @@ BROKEN = {**FILES, "trees/MainTree.json": TREE.replace("AlwaysSuccess", "Nope").
 
 
 def test_a_report_names_problems_and_actions() -> None:
-    assert JOBS["report"](files=FILES) == {"diagnostics": [], "actions": []}
+    assert JOBS["report"](files=FILES) == {"diagnostics": [], "actions": [], "ros_distro": "jazzy"}
     assert JOBS["report"](files=BROKEN)["diagnostics"]
 
 

@@ -8,6 +8,7 @@ import json
 import pytest
 
 from backend.projects.documents import templates
+from translator.nav2.sources import nav2_source
 
 
 def file(path, base, content=None, **more):
@@ -362,3 +363,31 @@ def test_an_action_is_inspected(api):
     source = "class Go:\n    '''Goes.'''\n"
     found = api.post("actions/inspect", {"source": source, "filename": "actions/Go.py"})
     assert found["name"] == "Go"
+
+
+def test_a_change_of_the_distribution_answers_with_the_files_and_stores_nothing(api, project):
+    url = f"projects/{project['id']}"
+    tree = {
+        "format": "bt-studio/diagram", "version": 1, "id": "MainTree", "root": "a",
+        "nodes": {"a": {"type": "ValidatePath", "ports": {"path": "{path}", "max_cost": "9"}}},
+    }  # fmt: skip
+    source = nav2_source("ValidatePath")
+    files = [
+        {"path": "trees/MainTree.json", "content": json.dumps(tree)},
+        {"path": "actions/ValidatePath.py", "content": source},
+    ]
+    told = api.post(f"{url}/check", {"files": files})
+    assert told["ros_distro"] == "jazzy"  # as the project says
+    assert "BT0129" in {item["code"] for item in told["diagnostics"]}
+    change = api.post(f"{url}/distribution", {"ros_distro": "kilted", "files": files})
+    written = {item["path"]: item["content"] for item in change["files"]}
+    assert written["actions/ValidatePath.py"] is None
+    assert written["actions/IsPathValid.py"] == nav2_source("IsPathValid", "kilted")
+    assert json.loads(written["trees/MainTree.json"])["nodes"]["a"]["type"] == "IsPathValid"
+    assert json.loads(written["project.json"])["ros_distro"] == "kilted"
+    assert (change["lacks"], change["kept"]) == ([], [])
+    humble = api.post(f"{url}/distribution", {"ros_distro": "humble", "files": files})
+    assert humble["lacks"] == ["max_cost of IsPathValid"]
+    assert "actions/IsPathValid.py" not in api.get(url)["files"]
+    problem = api.post(f"{url}/distribution", {"ros_distro": "foxy", "files": []}, expect=422)
+    assert "foxy" in problem["detail"]

@@ -16,6 +16,7 @@ from tests.benchmarks.beside.command import parser
 
 BENCHMARKS = (
     "engine",
+    "distribution",
     "debugger",
     "python_debugger",
     "stops",

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import gzip
 import json
+import re
+import subprocess
+import sys
 import tomllib
 import zipfile
 from email import message_from_bytes
@@ -24,6 +27,9 @@ from tests.tree_gardener.distribution import (
     run_corpus,
 )
 
+PAGE = ROOT / "docs" / "how-to" / "use-the-engine-by-itself.md"
+FILE = re.compile(r"`([\w/]+\.\w+)`:\n\n```\w+\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+PYTHON = re.compile(r"^```python\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 MOST = count("engine_wheel_cases")
 
 
@@ -93,3 +99,51 @@ def test_the_corpus_passes_on_it_with_nothing_else_installed(python, wheel, tmp_
     assert found["foreign"] == []
     assert found["counts"] == {file.name: min(MOST, cases(file)) for file in CORPUS}
     assert len(CORPUS) >= 13
+
+
+@pytest.fixture
+def garden(tmp_path: Path) -> Path:
+    """The files of the how-to, in an empty folder."""
+    files = dict(FILE.findall(PAGE.read_text()))
+    assert sorted(files) == ["actions/IsMoist.py", "actions/Water.py", "test_garden.py", "tree.xml"]
+    for name, text in files.items():
+        (tmp_path / "garden" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "garden" / name).write_text(text)
+    return tmp_path / "garden"
+
+
+def said(*command: str | Path, folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_how_to_runs_on_it_as_it_is_written(wheel, garden, tmp_path):
+    own = make_environment(sys.executable, tmp_path / "env", wheel)
+    (garden / "tree.xml").write_text(
+        (garden / "tree.xml").read_text().replace('seconds="3"', 'seconds="0.1"')
+    )
+    run = [own, "-m", "tree_gardener", "run", "tree.xml", "--actions", "actions", "--max-ticks"]
+    halted = subprocess.run([*run, "7"], cwd=garden, capture_output=True, text=True, check=False)
+    assert halted.stdout.splitlines() == ["valve open", "valve closed", "the root returned RUNNING"]
+    [by_hand] = [text for text in PYTHON.findall(PAGE.read_text()) if "tree.shutdown()" in text]
+    assert "valve open" in said(own, "-c", by_hand.replace("100", "8"), folder=garden)
+    [hello] = PYTHON.findall((ROOT / "tree_gardener" / "README.md").read_text())
+    assert said(own, "-I", "-c", hello, folder=garden).splitlines() == [
+        "Hello, world",
+        "Hello, robot",
+        "Status.SUCCESS",
+    ]
+
+
+def test_its_behaviour_test_passes_and_would_not(garden):
+    settings = garden / "pytest.ini"
+    settings.write_text("[pytest]\n")
+    alone = ["-p", "no:cacheprovider", "--disable-plugin-autoload"]
+    run = [sys.executable, "-m", "pytest", "-q", "-c", settings, *alone, "test_garden.py"]
+    assert "2 passed" in said(*run, folder=garden)
+    tree = (garden / "tree.xml").read_text()
+    (garden / "tree.xml").write_text(tree.replace("Fallback", "Sequence"))
+    broken = subprocess.run(run, cwd=garden, capture_output=True, text=True, check=False)
+    assert broken.returncode == 1
+    assert "wanted" in broken.stdout

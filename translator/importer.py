@@ -13,7 +13,9 @@ from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.enums import ENUMS_FILE, enums_text
 from translator.limits import NAME_CHARACTERS, oversize
-from translator.nav2 import nav2_models, nav2_source
+from translator.nav2.distributions import DEFAULT, DISTRIBUTIONS, titled
+from translator.nav2.models import Lack, lacks, nav2_models, recognised
+from translator.nav2.sources import nav2_source
 from translator.project import Project, assemble
 from translator.proposal import propose
 from translator.settings import PROJECT_FILE, Settings
@@ -25,6 +27,7 @@ from translator.xml.py_trees import class_source, with_defaults
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    from translator.nav2.distributions import Distribution
     from translator.xml.read import Document
 
 IMPORTS = "imports/"
@@ -99,8 +102,11 @@ def from_files(  # noqa: PLR0913 - each is a separate choice, and keyword-only
     if too_large := oversize(trees, Place(file, line=1, column=1)):
         raise TranslatorError([*work.found, *too_large])
     documents = list(work.documents.values())
-    sources = _actions(trees, documents, actions or {}, stubs=stubs)
+    nav2 = _Nav2.of(trees, documents) if stubs else _Nav2()
+    work.found.extend(nav2.notes(Place(file, line=1, column=1)))
+    sources = _actions(trees, documents, actions or {}, nav2, stubs=stubs)
     settings, proposed = with_proposal(settings, trees, sources)
+    settings = settings.model_copy(update={"ros_distro": nav2.distribution})
     work.found.extend(proposed)
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
@@ -229,8 +235,54 @@ def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
     return named, next(iter(uncalled(documents)[1]), trees[0])
 
 
+@dataclass(frozen=True, slots=True)
+class _Nav2:
+    """The nodes of Nav2 in imported trees, the ROS distribution that has most of them, and what it lacks."""
+
+    distribution: Distribution = DEFAULT
+    models: Mapping[str, NodeModel] = field(default_factory=dict)
+    lacks: Sequence[Lack] = ()
+
+    @classmethod
+    def of(cls, trees: list[Tree], documents: list[Document]) -> _Nav2:
+        seen = {type_: use.ports for type_, use in _seen(trees, documents).items()}
+        own = {name: model for document in documents for name, model in document.models.items()}
+        distribution = recognised(seen)
+        models = nav2_models(seen, own, distribution)
+        if not models:
+            return cls()
+        for each in reversed(DISTRIBUTIONS):
+            models = nav2_models(seen, own, each) | models
+        return cls(distribution, models, lacks({name: seen[name] for name in models}, distribution))
+
+    def notes(self, place: Place) -> list[Diagnostic]:
+        if not self.models:
+            return []
+        name = titled(self.distribution)
+        if self.lacks:
+            return [diagnostic("BT0750", place, distribution=name, lacks=", ".join(map(str, self.lacks)))]
+        return [diagnostic("BT0749", place, distribution=name)]
+
+    def source(self, type_: str) -> str | None:
+        """Returns the source in this distribution, or in the newest that has the node."""
+        if type_ not in self.models:
+            return None
+        those = (self.distribution, *reversed(DISTRIBUTIONS))
+        return next((text for each in those if (text := nav2_source(type_, each)) is not None), None)
+
+
+def _seen(trees: list[Tree], documents: list[Document]) -> dict[str, _Use]:
+    """Returns the nodes that are not built in; of a palette, its models."""
+    seen = _unknown_nodes(trees)
+    if not any(tree.nodes for tree in trees):  # a palette
+        models = {name: model for document in documents for name, model in document.models.items()}
+        others = (name for name, model in models.items() if model.kind != "subtree")
+        seen |= {name: _Use() for name in others if name not in builtins() and can_be_class(name)}
+    return seen
+
+
 def _actions(
-    trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], *, stubs: bool
+    trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], nav2: _Nav2, *, stubs: bool
 ) -> dict[str, bytes]:
     """Returns the action files: given ones, those of `<Code>`, those of Nav2, and stubs for the others."""
     files = {f"actions/{name}": raw for name, raw in sources.items()}
@@ -243,14 +295,9 @@ def _actions(
     for document in documents:
         models.update(document.models)
         kinds.update(document.kinds)
-    seen = _unknown_nodes(trees)
-    if not any(tree.nodes for tree in trees):  # a palette
-        others = (name for name, model in models.items() if model.kind != "subtree")
-        seen |= {name: _Use() for name in others if name not in builtins() and can_be_class(name)}
-    nav2 = nav2_models({type_: use.ports for type_, use in seen.items()}, models) if stubs else {}
-    for type_, use in seen.items() if stubs else ():
+    for type_, use in _seen(trees, documents).items() if stubs else ():
         path = f"actions/{type_}.py"
-        if type_ in nav2 and (source := nav2_source(type_)) is not None:
+        if (source := nav2.source(type_)) is not None:
             files.setdefault(path, source.encode())
             continue
         if (
@@ -259,7 +306,7 @@ def _actions(
         ):
             files.setdefault(path, made)
             continue
-        model = models.get(type_) or nav2.get(type_)
+        model = models.get(type_) or nav2.models.get(type_)
         if model is None and type_ not in kinds and use.children and nearest(type_, _with_children()):
             continue  # more likely a built-in node that is spelled wrong
         kind = model.kind if model is not None else kinds.get(type_, use.kind)

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.json_file import parse_json
 from translator.limits import DESCRIPTION_CHARACTERS, NAME_CHARACTERS
+from translator.nav2.distributions import Distribution  # noqa: TC001 - pydantic reads it
 from translator.text import clean, is_clean
 
 PROJECT_FILE = "project.json"
@@ -42,17 +43,21 @@ class Settings(BaseModel):
     on_finish: Literal["stop", "repeat"] = "stop"
     on_error: Literal["stop", "failure"] = "stop"
     time: Literal["exact", "live"] = "live"
+    ros_distro: Distribution | None = None
     license: str = Field(default="Apache-2.0", max_length=100)
     maintainer: Maintainer = Maintainer()
 
     def to_json(self) -> dict[str, Any]:
         """Returns the document.
 
-        `robot` is left out if the universe's own robot is used, and `time` if it is `live`.
+        `robot` is left out if the universe's own robot is used, `time` if it is `live`, and `ros_distro` if
+        the project does not state it.
         """
         document = self.model_dump()
         if self.robot is None:
             del document["robot"]
+        if self.ros_distro is None:
+            del document["ros_distro"]
         if self.time == "live":
             del document["time"]
         if self.tick_hz == int(self.tick_hz):

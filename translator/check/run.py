@@ -13,6 +13,7 @@ from translator.check.effect import check_effects
 from translator.check.endless import check_endless_loops
 from translator.check.entry_types import check_entry_types
 from translator.check.late_script import check_late_scripts
+from translator.check.nav2 import check_nav2
 from translator.check.nobody import check_nobody
 from translator.check.order import check_order
 from translator.check.port import check_ports
@@ -56,6 +57,7 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     check_conflicts(context)
     check_actions(context)
     check_sources(context)
+    check_nav2(context)
     check_nobody(context)
     check_ports(context)
     check_entry_types(context)

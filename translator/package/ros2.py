@@ -17,6 +17,7 @@ from translator.action import inspect_action
 from translator.behaviour_tests import paths_of_tests, to_job
 from translator.endpoints import Endpoint, endpoints
 from translator.export import require_sound, write_self_contained
+from translator.nav2.models import distribution_for
 from translator.package.app import is_action_source
 from translator.package.engine import engine_files
 from translator.package.interfaces import (
@@ -182,6 +183,7 @@ class _Builder:
             "version": VERSION,
             "description": " ".join(settings.description.split()) or settings.name,
             "license": settings.license,
+            "distribution": distribution_for(self.project),
             "maintainer": settings.maintainer.name or "Unnamed",
             "email": settings.maintainer.email or "nobody@example.org",
             "dependencies": sorted(always | set(keys)),

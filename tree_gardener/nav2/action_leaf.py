@@ -28,13 +28,14 @@ class _Leaf:
         seconds = float(super().seconds(name, default_ms))  # type: ignore[misc]
         return seconds if seconds < 0 else max(seconds, LEAST_TIMEOUT_S)
 
-    def read(self, name: str) -> Any:
-        """Returns the value of a port, or its default.
+    def read(self, name: str, otherwise: Any = None) -> Any:
+        """Returns the value of a port, or its default; `otherwise` if this node's version has no such port.
 
         Raises:
-            PortError: it has neither.
+            PortError: the port has neither.
         """
-        return get_input(self, name)
+        is_there = otherwise is None or name in getattr(self, "INPUT_PORTS", ())
+        return get_input(self, name) if is_there else otherwise
 
     def is_given(self, name: str) -> bool:
         """Returns whether the tree sets a port."""

@@ -34,4 +34,4 @@ class DriveOnHeading(Nav2Action):
         goal.target.x = float(self.read("dist_to_travel"))
         goal.speed = float(self.read("speed"))
         goal.time_allowance = duration(self.read("time_allowance"))
-        put(goal, disable_collision_checks=self.read("disable_collision_checks"))
+        put(goal, disable_collision_checks=self.read("disable_collision_checks", otherwise=False))

@@ -4,6 +4,7 @@ import math
 from typing import Any, Final
 
 from tree_gardener.errors import PortError
+from tree_gardener.nav2.geometry import copied
 from tree_gardener.nav2.topics import message_class
 
 NAV2_PARTS: Final = 9
@@ -43,6 +44,11 @@ def poses_from(value: Any) -> list[Any]:
     if isinstance(value, str):
         return [pose_from(part) for part in value.split("|") if part.strip()]
     return [pose_from(each) for each in getattr(value, "goals", value)]
+
+
+def regrouped(goals: Any, left: list[Any]) -> Any:
+    """Returns poses in the form of `goals`: a Goals message, as since Kilted, or a list, as before."""
+    return copied(goals, goals=left) if hasattr(goals, "goals") else left
 
 
 def duration(seconds: float) -> Any:

@@ -3,8 +3,7 @@
 from typing import Any
 
 from tree_gardener.nav2.cost_leaf import Nav2Costs
-from tree_gardener.nav2.geometry import copied
-from tree_gardener.nav2.poses import poses_from
+from tree_gardener.nav2.poses import poses_from, regrouped
 from tree_gardener.nav2.reading import give
 from tree_gardener.nav2.remove_passed_goals import complete
 from tree_gardener.ports import Port
@@ -60,6 +59,6 @@ class RemoveInCollisionGoals(Nav2Costs):
                 left.append(pose)
             elif given is not None and not complete(statuses, pose, "SKIPPED"):
                 return Status.FAILURE
-        give(self, "output_goals", copied(self.goals, goals=left) if hasattr(self.goals, "goals") else left)
+        give(self, "output_goals", regrouped(self.goals, left))
         give(self, "output_waypoint_statuses", statuses)
         return Status.SUCCESS

@@ -7,6 +7,7 @@ from py_trees.common import Status
 
 from tree_gardener.nav2.frames import Frames
 from tree_gardener.nav2.geometry import copied, distance
+from tree_gardener.nav2.poses import poses_from, regrouped
 from tree_gardener.nav2.reading import give, input_or
 from tree_gardener.ports import Port
 
@@ -36,21 +37,21 @@ class RemovePassedGoals(Behaviour):
 
     def update(self) -> Status:
         goals = input_or(self, "input_goals", None)
-        if goals is None or not goals.goals:
+        left = [] if goals is None else poses_from(goals)
+        if not left:
             if goals is not None:
                 give(self, "output_goals", goals)
             return Status.SUCCESS
-        pose = self.frames.robot_pose(goals.goals[0].header.frame_id)
+        pose = self.frames.robot_pose(left[0].header.frame_id)
         if pose is None:
             return Status.FAILURE
-        left = list(goals.goals)
         given = input_or(self, "input_waypoint_statuses", None)
         statuses = list(given or ())
         while len(left) > 1 and distance(left[0], pose) <= input_or(self, "radius", 0.5):
             if given is not None and not complete(statuses, left[0]):
                 return Status.FAILURE
             del left[0]
-        give(self, "output_goals", copied(goals, goals=left))
+        give(self, "output_goals", regrouped(goals, left))
         give(self, "output_waypoint_statuses", statuses)
         return Status.SUCCESS
 

@@ -33,4 +33,4 @@ class Spin(Nav2Action):
     def set_goal(self, goal: Any) -> None:
         goal.target_yaw = float(self.read("spin_dist"))
         goal.time_allowance = duration(self.read("time_allowance"))
-        put(goal, disable_collision_checks=self.read("disable_collision_checks"))
+        put(goal, disable_collision_checks=self.read("disable_collision_checks", otherwise=False))

@@ -11,7 +11,7 @@ from tree_gardener.status import Status
 class ValidatePath(Nav2Service):
     """Succeeds if no pose of the path is occupied.
 
-    Rule: Nav2's plugins/action/validate_path_service.cpp.
+    Rule: Nav2's plugins/action/validate_path_action.cpp.
     """
 
     SERVICE_TYPE = "nav2_msgs/srv/IsPathValid"
@@ -43,12 +43,12 @@ class ValidatePath(Nav2Service):
         request.path = self.path = self.read("path")
         put(
             request,
-            max_cost=int(self.read("max_cost")),
-            consider_unknown_as_obstacle=self.read("consider_unknown_as_obstacle"),
-            layer_name=str(self.read("layer_name")),
-            footprint=str(self.read("footprint")),
-            stop_at_first_collision=self.read("stop_at_first_collision"),
-            max_lookahead_distance=float(self.read("max_lookahead_distance")),
+            max_cost=int(self.read("max_cost", 254)),
+            consider_unknown_as_obstacle=self.read("consider_unknown_as_obstacle", otherwise=False),
+            layer_name=str(self.read("layer_name", "")),
+            footprint=str(self.read("footprint", "")),
+            stop_at_first_collision=self.read("stop_at_first_collision", otherwise=True),
+            max_lookahead_distance=float(self.read("max_lookahead_distance", -1.0)),
         )
 
     def on_response(self, response: Any) -> Status:

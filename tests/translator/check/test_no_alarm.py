@@ -85,10 +85,13 @@ NAV2 = """<root BTCPP_format="4"><BehaviorTree ID="A">
 
 def test_a_tree_of_nav2():
     """The goal comes from the navigator: nothing in the tree writes it, as its warning says."""
-    assert {item.code for item in check(from_xml(NAV2))} == {"BT0401"}
+    assert {item.code for item in check(from_xml(NAV2))} == {"BT0401", SAYS_WHICH}
 
 
+SAYS_WHICH = "BT0749"
+"""The note that says for which ROS distribution an imported tree is."""
 NAVIGATOR = {
+    SAYS_WHICH: "it is no alarm",
     "BT0401": "the navigator or the application writes the goal; an unset plugin is the only one there is",
     "BT0402": "the navigator reads the errors; other outputs are for trees that are made from this one",
 }

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Final
 
 from translator.check.results.controls import ordered
 from translator.check.results.sets import ALL, DONE, RUNS, F, K, R, S
-from translator.nav2 import nav2_source
+from translator.nav2.distributions import new_node
+from translator.nav2.sources import nav2_source, sources
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -76,12 +77,12 @@ _SERVED: Final = ("(Nav2Action)", "(Nav2Service)", "(Nav2Cancel)", "(Nav2Costs)"
 
 @cache
 def _library(type_: str) -> str:
-    return (nav2_source(type_) or "").strip()
+    return nav2_source(new_node(type_)) or ""
 
 
 def is_of_library(action: ActionModel) -> bool:
-    """Returns whether an action's source is that of Nav2's node of this name in the engine's library."""
-    return bool(library := _library(action.name)) and action.source.strip() == library
+    """Returns whether an action's source is that of Nav2's node of this name in some distribution."""
+    return action.source.strip() in sources(action.name)
 
 
 def of_nav2(type_: str, children: Sequence[int]) -> int | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from translator.action import inspect_action
 from translator.check.results.nav2 import ADDED, CONTROLS, is_of_library, of_nav2
 from translator.check.results.sets import F, K, R, S
-from translator.nav2 import nav2_source
+from translator.nav2.sources import nav2_source
 
 
 def test_a_node_of_the_library_is_known_by_its_source():

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from translator.importer import from_xml
-from translator.nav2 import LEAST_NODES, nav2_models, nav2_source
+from translator.nav2.models import LEAST_NODES, nav2_models
+from translator.nav2.sources import nav2_source
 from tree_gardener.stubs import is_stub
 
 TREE = """<root BTCPP_format="4"><BehaviorTree ID="Main"><RecoveryNode number_of_retries="2">

@@ -56,7 +56,7 @@ def measured(page: Page, client: Any, project: str, name: str) -> list[tuple[flo
     page.get_by_test_id("run").click()
     page.locator("[data-testid=executor-state][data-state=application_running]").wait_for()
     if name == "heat":
-        page.get_by_role("tab", name="Profile", exact=True).click()
+        page.keyboard.press("Control+Alt+KeyP")
         page.get_by_test_id("profile-on").click(force=True)
     see_all(page)
     cdp = page.context.new_cdp_session(page)

@@ -33,20 +33,7 @@ def _column(weight: int, *children: dict[str, Any]) -> dict[str, Any]:
 
 _FILES = _tabs("files", 42, "explorer", "outline", "search", "history")
 _NODES = _tabs("nodes", 58, "palette", "library")
-_OUTPUT = _tabs(
-    *(
-        "output",
-        26,
-        "console",
-        "problems",
-        "tests",
-        "evaluate",
-        "timeline",
-        "topics",
-        "breakpoints",
-        "profile",
-    )
-)
+_OUTPUT = _tabs("output", 26, "console", "problems", "tests", "evaluate", "timeline", "topics")
 _DETAILS = _tabs("details", 50, "inspector", "blackboard", "viewer3d", "video", "camera")
 _LAYOUT = {
     "global": {

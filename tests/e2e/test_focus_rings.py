@@ -45,6 +45,9 @@ def test_no_panel_or_bar_cuts_the_ring(studio_without_views: Studio) -> None:
     studio.page.set_viewport_size({"width": 1280, "height": 720})
     studio.new_from("laser_bump_and_go")
     studio.run()
+    # These two are hidden until they are used.
+    studio.page.keyboard.press("Control+Alt+KeyB")
+    studio.page.keyboard.press("Control+Alt+KeyP")
     for panel in ("Console", "Problems", "Tests", "Evaluate", "Timeline", "Topics", "Breakpoints", "Profile"):
         studio.page.get_by_role("tab", name=panel, exact=True).first.click()
         cut: list[str] = studio.page.evaluate(CUT_RINGS, LEAST_PX)

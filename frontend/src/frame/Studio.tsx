@@ -84,6 +84,7 @@ import {
   showPanel,
   useTabs,
 } from '@/workspace/tabs';
+import { followUse } from '@/workspace/usedPanels';
 import { TopBar } from './TopBar';
 import { useProject } from './useProject';
 import { Waiting } from './Waiting';
@@ -153,6 +154,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       followPython(),
       followRobots(),
       followSelection(),
+      followUse(),
       registerAxisCommands(),
       followPresent(),
       followPast(),

@@ -325,11 +325,18 @@ const PANELS: readonly PanelId[] = [
   'profile',
 ];
 
+/** The keys of panels that are hidden until they are used. */
+const KEYS: Partial<Record<PanelId, Pick<UserCommand, 'shortcut' | 'inTextFields'>>> = {
+  breakpoints: { shortcut: '$mod+Alt+KeyB', inTextFields: true },
+  profile: { shortcut: '$mod+Alt+KeyP', inTextFields: true },
+};
+
 const panels = PANELS.map((id): UserCommand => ({
   id: `panel.${id}`,
   group: 'view',
   labelKey: `frame:panel.${id}`,
   icon: IconLayoutSidebar,
+  ...KEYS[id],
   run: () => showPanel(id),
 }));
 

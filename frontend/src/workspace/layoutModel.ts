@@ -38,8 +38,6 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['tests', 'problems'],
   ['evaluate', 'tests'],
   ['topics', 'console'],
-  ['breakpoints', 'timeline'],
-  ['profile', 'breakpoints'],
   ['library', 'palette'],
   ['history', 'explorer'],
   ['search', 'explorer'],
@@ -54,6 +52,9 @@ const LOOKING: readonly (readonly PanelId[])[] = [
 /** The panels that can have their own window. */
 export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
+
+/** The panels that no layout has before they are used. */
+export const UNTIL_USED = ['breakpoints', 'profile'] as const satisfies readonly PanelId[];
 
 /** Returns the panels beside which a panel fits, the most similar first. */
 export const companionsOf = (id: PanelId): readonly PanelId[] => [
@@ -138,21 +139,25 @@ const HOMES: Partial<Record<PanelId, PanelId>> = {
   evaluate: 'problems',
   timeline: 'problems',
   topics: 'problems',
-  breakpoints: 'problems',
-  profile: 'problems',
+  breakpoints: 'console',
+  profile: 'console',
   blackboard: 'inspector',
   camera: 'video',
   lesson: 'inspector',
 };
 
-/** Opens a panel that the layout lacks; returns whether there is a place for it. */
-export function openMissing(model: Model, id: PanelId): boolean {
+function addMissing(model: Model, id: PanelId, isInFront: boolean): void {
   const beside = model.getNodeById(HOMES[id] ?? '')?.getParent();
-  if (!beside) return false;
+  if (!beside || model.getNodeById(id)) return;
   const tab = { ...panel(id), enableClose: true };
-  model.doAction(Actions.addTab(tab, beside.getId(), DockLocation.CENTER, -1, true));
-  return true;
+  model.doAction(Actions.addTab(tab, beside.getId(), DockLocation.CENTER, -1, isInFront));
 }
+
+/** Opens a panel that the layout lacks, if there is a place for it. */
+export const openMissing = (model: Model, id: PanelId): void => addMissing(model, id, true);
+
+/** Adds a panel that the layout lacks, behind the one that is open at its place. */
+export const addBehind = (model: Model, id: PanelId): void => addMissing(model, id, false);
 
 /** Returns the layout of a first project: blocks, tree, output, robot and properties. */
 function basicLayout(width: FrameWidth, view: number): IJsonModel {
@@ -204,8 +209,6 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean, mode: ViewMode): IJ
               'evaluate',
               'timeline',
               'topics',
-              'breakpoints',
-              'profile',
               'blackboard',
               'explorer',
               'search',
@@ -236,16 +239,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean, mode: ViewMode): IJ
           weight: 53,
           children: [
             tabset(EDITORS, 74, []),
-            tabset('output', 26, [
-              'console',
-              'problems',
-              'tests',
-              'evaluate',
-              'timeline',
-              'topics',
-              'breakpoints',
-              'profile',
-            ]),
+            tabset('output', 26, ['console', 'problems', 'tests', 'evaluate', 'timeline', 'topics']),
           ],
         },
         {
@@ -341,7 +335,7 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
     try {
       const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
       const whole = mode === 'full' ? withNewPanels(model) : model;
-      if (model.getNodeById(EDITORS)) return withWindows(whole);
+      if (model.getNodeById(EDITORS)) return withAttributes(whole);
     } catch {
       // An unreadable layout is replaced by the default one.
     }
@@ -359,10 +353,14 @@ function withNewPanels(model: Model): Model {
   return model;
 }
 
-/** Updates a layout that was stored when panels could not have windows yet. */
-function withWindows(model: Model): Model {
-  for (const id of WINDOWED) {
-    if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, windowed(id)));
+/** Updates a layout that was stored when panels could not have windows yet, or none of them be closed. */
+function withAttributes(model: Model): Model {
+  const changes: [PanelId, Partial<IJsonTabNode>][] = [
+    ...WINDOWED.map((id): [PanelId, Partial<IJsonTabNode>] => [id, windowed(id)]),
+    ...UNTIL_USED.map((id): [PanelId, Partial<IJsonTabNode>] => [id, { enableClose: true }]),
+  ];
+  for (const [id, attributes] of changes) {
+    if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, attributes));
   }
   return model;
 }

@@ -13,7 +13,7 @@ from typing import Final
 
 __all__ = ["TwoRosError", "refuse_two"]
 
-WHEEL: Final = "ros-rclpy"
+_WHEEL: Final = "ros-rclpy"
 """The distribution that holds rclpy in the wheels of ROS."""
 _PLACES: Final = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages")
 
@@ -39,7 +39,7 @@ def refuse_two(environment: Mapping[str, str] | None = None, paths: Iterable[str
     from importlib import metadata  # noqa: PLC0415 - most processes need it for nothing
 
     searched = list(sys.path if paths is None else paths)
-    found = next(iter(metadata.distributions(name=WHEEL, path=searched)), None)
+    found = next(iter(metadata.distributions(name=_WHEEL, path=searched)), None)
     if found is None:
         return
     wheel = pathlib.Path(str(found.locate_file("rclpy"))).resolve()

@@ -12,6 +12,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command as command_of
 
+from backend.cli.shared.engine import require_engine
 from backend.cli.shared.errors import WORK_FAILED, CliError, exit_with
 from backend.cli.shared.one_ros import require_one_ros
 from backend.cli.shared.removed import refuse_removed
@@ -70,7 +71,8 @@ class VerbCommand(TyperCommand):
         return super().parse_args(ctx, args)
 
     def invoke(self, ctx: Context) -> Any:
-        """Runs the command, unless it needs ROS and finds two."""
+        """Runs the command, unless the engine is another one, or it needs ROS and finds two."""
+        require_engine()
         if self.name in ON_ROS:
             require_one_ros()
         return super().invoke(ctx)

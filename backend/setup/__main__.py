@@ -61,7 +61,7 @@ def main(arguments: list[str]) -> None:
     steps = [
         python_step(),
         packages_step(goal),
-        own_packages_step(),
+        own_package_step(),
         bytecode_step(),
         node_step(),
         front_end_step(),
@@ -168,7 +168,7 @@ def uv_install() -> list[str]:
 OWN_OPTIONS = ["--no-deps", "--no-build-isolation", "--config-settings", "editable_mode=compat"]
 
 
-def own_packages_step() -> Step:
+def own_package_step() -> Step:
     """Returns the step that installs the distributions of this clone: the engine, and `bt-studio` on it."""
     folders = [ROOT / "tree_gardener", ROOT]
     editable = [word for folder in folders for word in ("--editable", str(folder))]

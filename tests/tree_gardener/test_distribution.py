@@ -16,6 +16,7 @@ import pytest
 from setuptools import find_packages
 
 from tests.budget import count
+from tests.tools.sources import imports_of
 from tests.tools.version import version
 from tests.tree_gardener.distribution import (
     CORPUS,
@@ -30,6 +31,10 @@ from tests.tree_gardener.distribution import (
 PAGE = ROOT / "docs" / "how-to" / "use-the-engine-by-itself.md"
 FILE = re.compile(r"`([\w/]+\.\w+)`:\n\n```\w+\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+# Those of the extra `ros`, and those that come with a ROS of the machine alone.
+ROS = {"geometry_msgs", "rcl_interfaces", "rclpy"} | {
+    *("ament_index_python", "btcpp_ros2_interfaces", "tf2_geometry_msgs", "tf2_msgs", "tf2_ros"),
+}
 MOST = count("engine_wheel_cases")
 
 
@@ -69,6 +74,16 @@ def test_it_holds_the_sources_of_the_engine_and_nothing_else(wheel):
     about = {path for path in held if path.startswith(f"tree_gardener-{version()}.dist-info/")}
     assert held - about == sources
     assert f"tree_gardener-{version()}.dist-info/licenses/LICENSE" in about
+
+
+def test_its_modules_import_what_it_and_its_extras_require():
+    imports = {
+        each.module.partition(".")[0]
+        for path in (ROOT / "tree_gardener").rglob("*.py")
+        for each in imports_of(path.read_text(encoding="utf-8"))
+    }
+    others = imports - sys.stdlib_module_names - {"tree_gardener"}
+    assert others == {"lxml", "py_trees"} | {"msgpack", "zmq"} | ROS
 
 
 def test_bt_studio_requires_it_and_does_not_hold_it():

@@ -53,8 +53,8 @@ def make_environment(python: str, folder: Path, wheel: Path) -> Path:
     """
     _run([python, "-m", "venv", "--without-pip", folder], folder.parent)
     own = folder / "bin" / "python"
-    install = [_uv(), "pip", "install", "--offline", "--quiet", "--no-deps", "--python", own]
-    _run([*install, wheel], folder)
+    options = ("--offline", "--quiet", "--no-deps", "--python")
+    _run([_uv(), "pip", "install", *options, own, wheel], folder)
     [site] = folder.glob("lib/python3*/site-packages")
     for name in (*PURE, *(("lxml",) if python == sys.executable else ())):
         _copy(name, site)

@@ -55,8 +55,8 @@ def run_wheel(python: str, py_trees: str, folder: Path, wheel: Path) -> bool:
     """Runs the corpus on the installed wheel."""
     subprocess.run([python, "-m", "venv", folder], check=True)
     own = folder / "bin" / "python"
-    install = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel, py_trees]
-    subprocess.run(install, check=True)
+    options = ("-q", "--disable-pip-version-check")
+    subprocess.run([own, "-m", "pip", "install", *options, wheel, py_trees], check=True)
     subprocess.run([own, "-m", "pip", "check"], check=True)
     found = run_corpus(own, folder, most=EVERY)
     print(f"{sum(found['counts'].values())} cases on the wheel, {len(found['failed'])} failed", flush=True)

@@ -78,7 +78,12 @@ ROWS: Final = (
             "tests/fakes/docker.py",
             "tests/backend/sessions/",
             "tests/executor/evaluation/sealed/test_launchers.py",
+            "tests/tree_gardener/test_distribution.py",
         ),
+    ),
+    Row(
+        ("docs/how-to/use-the-engine-by-itself.md",),
+        ("tests/tree_gardener/test_distribution.py", "tests/backend/cli/test_ci_workflow.py"),
     ),
     Row(
         ("docs/explanation/action-errors.md",),
@@ -130,9 +135,11 @@ NAMED: Final = (
     ("tests/executor/world/physics/test_motion_lint.py", "executor/"),
 )
 # Who runs a function below the first path reads all sources below the second as texts: a package has the
-# whole engine, and the language server, which is no Python, follows links to the engine and to Python parts
-# of ROS. `tests/tools/measuring` sees what Python opens; other programs read these without being seen.
+# whole engine, and so has its wheel; the language server, which is no Python, follows links to the engine
+# and to Python parts of ROS. `tests/tools/measuring` sees what Python opens; other programs read these
+# without being seen.
 READ_AS_TEXTS: Final = (
+    ("tests/tree_gardener/distribution.py", "tree_gardener/"),
     ("translator/package/engine.py", "tree_gardener/"),
     ("backend/language/servers.py", "tree_gardener/"),
     ("backend/language/servers.py", "executor/ros_python/"),

@@ -7,6 +7,7 @@ from typing import Literal
 from msgspec import Struct
 
 StopReason = Literal["disk_full", "disk_failed", "recorder_died", "recorder_hung"]
+RunResult = Literal["success", "failure", "fault", "collision", "stopped"]
 
 
 class Segment(Struct):
@@ -15,6 +16,8 @@ class Segment(Struct):
     It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
     its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
     `run_number` counts the runs of the session from 1, and stays with a run when others are thrown away.
+    `result` says how the run ended, once it has: by the status of the root, by a fault, or stopped by the user;
+    a run that is stopped after its robot bumped into something ended by that `collision`.
     """
 
     run: str
@@ -26,6 +29,7 @@ class Segment(Struct):
     bytes: int
     complete: bool = False
     run_number: int = 0
+    result: RunResult | None = None
 
 
 class FlagSet(Struct):

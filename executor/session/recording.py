@@ -12,6 +12,7 @@ from msgspec import structs, to_builtins
 
 from executor import child_messages, messages, recorder_messages
 from executor.session.questions import answer, answer_late
+from executor.session.run_results import RunResults
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -53,6 +54,7 @@ class Recording:
         self._is_stopped = False
         self._branch: dict[str, str] = {}
         self._numbers: dict[str, int] = {}
+        self._results = RunResults()
         self.run = ""
 
     def start(self, folder: str, *, is_whole: bool = False) -> None:
@@ -77,6 +79,8 @@ class Recording:
         """
         if not self._folder:
             return
+        if self.run and not parent and self._results.stop(self.run):
+            self._tell_result(self.run)
         self.run, self._is_stopped = uuid4().hex[:12], False
         self._numbers[self.run] = len(self._numbers) + 1
         self._branch = {"parent": parent, "from_t": repr(from_t)} if parent else {}
@@ -94,6 +98,8 @@ class Recording:
 
     def tell(self, name: str, event: Struct) -> None:
         """Records an event that all clients get, if it has a place in a recording."""
+        if self.run and self._results.hear(self.run, event):
+            self._tell_result(self.run)
         if not (self.run and isinstance(event, _TOLD)):
             return
         t_s = getattr(event, "time", 0.0) or self._stage.sim_time_s
@@ -122,8 +128,8 @@ class Recording:
         self._silent_s = 0.0
         match event.message:
             case recorder_messages.Recorded(segment=segment):
-                number = self._numbers.get(segment.run, 0)
-                stage.output.emit(structs.replace(segment, run_number=number))
+                number, result = self._numbers.get(segment.run, 0), self._results.of(segment.run)
+                stage.output.emit(structs.replace(segment, run_number=number, result=result))
             case recorder_messages.Stopped(run=run, t=t_s, reason=reason, detail=detail):
                 self._is_stopped = self._is_stopped or run == self.run
                 stage.output.emit(messages.RecordingStopped(run, t_s, reason, detail, goes_on=False))
@@ -178,6 +184,12 @@ class Recording:
             stop = messages.RecordingStopped(self.run, t_s, reason, cause, goes_on=not ends)
             self._stage.output.emit(stop)
         self._stage.output.emit(messages.Log("manager", "warning", text, time=t_s))
+
+    def _tell_result(self, run: str) -> None:
+        """Sends the newest segment of a run again: nothing more may be recorded of it."""
+        known = [segment for segment in self._stage.mirror.segments.values() if segment.run == run]
+        if known:
+            self._stage.output.emit(structs.replace(known[-1], result=self._results.of(run)))
 
     def _tell_flags(self) -> None:
         """Sends another recorder the flags of the run: a part of it may go with the segments before."""

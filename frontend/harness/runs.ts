@@ -13,6 +13,7 @@ export const segmentOf = (more: Partial<Segment> = {}): Segment => ({
   bytes: 1,
   complete: true,
   run_number: 1,
+  result: null,
   ...more,
 });
 

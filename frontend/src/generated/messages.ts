@@ -37,6 +37,8 @@ export type CallPart = "callback" | "tick";
 
 export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
 
+export type RunResult = "success" | "failure" | "fault" | "collision" | "stopped";
+
 export type LaunchState = "running" | "ended" | "failed";
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos" | "unpublished" | "elsewhere" | "unserved";
@@ -900,6 +902,8 @@ export interface TickSource {
  * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
  * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
  * `run_number` counts the runs of the session from 1, and stays with a run when others are thrown away.
+ * `result` says how the run ended, once it has: by the status of the root, by a fault, or stopped by the user;
+ * a run that is stopped after its robot bumped into something ended by that `collision`.
  */
 export interface Segment {
   run: string;
@@ -911,6 +915,7 @@ export interface Segment {
   bytes: number;
   complete: boolean;
   run_number: number;
+  result: RunResult | null;
 }
 
 /** A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone. */

@@ -18,6 +18,7 @@ const segment = {
   bytes: 1,
   complete: false,
   run_number: 1,
+  result: null,
 };
 const extent = { run: 'a', from: 0, to: 10 };
 

@@ -16,6 +16,7 @@ const segment = {
   bytes: 1,
   complete: false,
   run_number: 1,
+  result: null,
 };
 const command = (id: string) => markCommands.find((each) => each.id === `time.${id}`)!;
 

@@ -32,6 +32,7 @@ it('goes from mark to mark, back from the present', () => {
     bytes: 1,
     complete: false,
     run_number: 1,
+    result: null,
   };
   const flag = (id: string, t: number, run = 'a') => ({ run, id, t, text: id, user: '' });
   useSessionStore.setState({

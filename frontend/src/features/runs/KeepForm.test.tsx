@@ -4,6 +4,7 @@ import type { Segment } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { show, user } from '../../../harness/testing';
+import { segmentOf } from '../../../harness/runs';
 import { KeepForm } from './KeepForm';
 
 afterEach(() => useSessionStore.setState(initialSession, true));
@@ -28,16 +29,19 @@ it('has a name already, and forgets the note of a kept run alone', async () => {
 });
 
 it('keeps an earlier run of the session, too; one that is gone meanwhile is not offered', async () => {
-  const segment = (run: string) => ({ run }) as Segment;
-  useSessionStore.setState({ segments: [segment('a1'), segment('b2')] });
+  const [first, second] = [
+    segmentOf({ run: 'a1', result: 'failure' }),
+    segmentOf({ run: 'b2', run_number: 2 }),
+  ];
+  useSessionStore.setState({ segments: [first, second] });
   const onKeep = vi.fn().mockResolvedValue(true);
   show(<KeepForm onKeep={onKeep} />);
   const which = screen.getByRole('combobox', { name: 'Run' });
   expect(which).toHaveValue('b2');
-  await user.selectOptions(which, 'Run 1');
+  await user.selectOptions(which, 'Run 1 · ✗ FAILURE');
   await user.click(screen.getByRole('button', { name: 'Keep' }));
   expect(onKeep).toHaveBeenCalledWith(expect.objectContaining({ run: 'a1' }));
-  act(() => useSessionStore.setState({ segments: [segment('b2')] }));
+  act(() => useSessionStore.setState({ segments: [second] }));
   expect(screen.queryByRole('combobox', { name: 'Run' })).toBeNull();
   await user.click(screen.getByRole('button', { name: 'Keep' }));
   expect(onKeep).toHaveBeenLastCalledWith(expect.objectContaining({ run: 'b2' }));

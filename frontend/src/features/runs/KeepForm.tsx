@@ -3,6 +3,7 @@ import { IconDeviceFloppy } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { RunToKeep } from '@/api/runs';
+import { labelOf } from '@/store/moment/compare/runNames';
 import { runsOf } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
 import { runToKeep } from './runToKeep';
@@ -10,8 +11,8 @@ import { runToKeep } from './runToKeep';
 /** A form that keeps the run of the session, with a name and a note. */
 export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Promise<boolean> }) {
   const { t, i18n } = useTranslation('runs');
-  const { t: words } = useTranslation('axis');
   const segments = useSessionStore((state) => state.segments);
+  const branches = useSessionStore((state) => state.branches);
   const runs = useMemo(() => runsOf(segments), [segments]);
   const [chosen, setChosen] = useState(() => runToKeep(runs));
   // A run whose recording is gone meanwhile is not kept.
@@ -38,12 +39,7 @@ export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Prom
           <NativeSelect
             label={t('which')}
             value={run}
-            data={runs
-              .map((value, at) => {
-                const isLast = at === runs.length - 1;
-                return { value, label: words(isLast ? 'run.last' : 'run.earlier', { n: at + 1 }) };
-              })
-              .reverse()}
+            data={runs.map((value) => ({ value, label: labelOf(value, { segments, branches }) })).reverse()}
             onChange={({ currentTarget: { value } }) => setChosen(value)}
             data-testid="run-to-keep"
           />

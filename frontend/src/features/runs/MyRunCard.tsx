@@ -1,4 +1,4 @@
-import { ActionIcon, Anchor, Badge, Button, Group, Menu, Text } from '@mantine/core';
+import { ActionIcon, Anchor, Button, Group, Menu, Text } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import { useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -7,7 +7,8 @@ import { timeAgo } from '@/i18n/timeAgo';
 import { navigate } from '@/store/route';
 import { openBeside } from './beside';
 import classes from './myRuns.module.css';
-import { minutes, pathOf, RESULT_COLORS } from './present';
+import { minutes, pathOf } from './present';
+import { ResultBadge } from './ResultBadge';
 import { Thumbnail } from './Thumbnail';
 
 interface Props {
@@ -40,9 +41,7 @@ export function MyRunCard({ run, onRemove }: Props) {
               {name}
             </Text>
           )}
-          <Badge size="sm" variant="light" color={RESULT_COLORS[run.result]}>
-            {t(`result.${run.result}`)}
-          </Badge>
+          <ResultBadge result={run.result} />
         </Group>
         <Text size="xs" c="dimmed">
           {t(run.may_open ? 'mine.facts' : 'mine.closed', {

@@ -6,7 +6,8 @@ import { runs, type RunChange, type StoredRun } from '@/api/runs';
 import { timeAgo } from '@/i18n/timeAgo';
 import { linkTo } from '@/store/moment/address';
 import { copyLink } from '@/ui/copying';
-import { minutes, RESULT_COLORS } from './present';
+import { minutes } from './present';
+import { ResultBadge } from './ResultBadge';
 import { Thumbnail } from './Thumbnail';
 
 const MEGA = 1e6;
@@ -45,9 +46,7 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
               {name}
             </Button>
           )}
-          <Badge size="sm" variant="light" color={RESULT_COLORS[run.result]}>
-            {t(`result.${run.result}`)}
-          </Badge>
+          <ResultBadge result={run.result} />
           {run.is_shared ? (
             <Badge size="sm" variant="outline" color="gray">
               {t('shared')}

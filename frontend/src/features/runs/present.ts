@@ -10,6 +10,3 @@ export function minutes(seconds: number): string {
 /** Returns the path of the page that shows a run of the user at its begin. */
 export const pathOf = ({ project, id }: Pick<MyRun, 'project' | 'id'>): string =>
   `${projectPath(project)}?run=${id}`;
-
-/** The colours of the results of runs. */
-export const RESULT_COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;

@@ -15,6 +15,7 @@ const segment = {
   bytes: 1,
   complete: false,
   run_number: 1,
+  result: null,
 };
 const flag = { run: 'a', id: 'f1', t: 4, text: 'here', user: 'ada' };
 const stop = { run: 'a', t: 9, reason: 'disk_full', detail: 'No space left', goes_on: false } as const;

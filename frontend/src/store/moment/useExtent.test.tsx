@@ -16,6 +16,7 @@ const segment = (more: Partial<Segment>): Segment => ({
   bytes: 100,
   complete: true,
   run_number: 1,
+  result: null,
   ...more,
 });
 

@@ -19,6 +19,7 @@ function segment(number: number, more: Partial<Segment> = {}): Segment {
     bytes: file.length,
     complete: true,
     run_number: 1,
+    result: null,
     ...more,
   };
 }

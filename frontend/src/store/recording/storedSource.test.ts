@@ -19,6 +19,7 @@ it('is one segment that has ended', () => {
       bytes: 100,
       complete: true,
       run_number: 1,
+      result: null,
     },
   ]);
   expect(source.subscribe(vi.fn())()).toBeUndefined();

@@ -17,6 +17,7 @@ export function storedSource(projectId: string, run: StoredRun): RecordingSource
     bytes: run.size,
     complete: true,
     run_number: 1,
+    result: null,
   };
   return {
     segments: () => [segment],

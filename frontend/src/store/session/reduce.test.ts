@@ -366,6 +366,7 @@ it('knows each segment in its last state, and forgets those that are gone', () =
     bytes: 10,
     complete: false,
     run_number: 1,
+    result: null,
   };
   const told = (...data: (typeof segment)[]) =>
     reduceAll(
@@ -399,6 +400,7 @@ it('knows the flags of the present run, and where a recording stopped until a la
     bytes: 1,
     complete: false,
     run_number: 1,
+    result: null,
   };
   expect(reduce(stopped, message('segment', { ...segment, run: 'a' })).stops).toEqual([stop]);
   expect(reduce(stopped, message('segment', { ...segment, run: 'b' })).stops).toEqual([]);

@@ -3,7 +3,7 @@ import { IconX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { comparableRuns, compareWith, endComparing, useComparing } from '@/store/moment/compare/comparing';
 import type { Difference, StatusThere } from '@/store/moment/compare/differences';
-import { nameOf } from '@/store/moment/compare/runNames';
+import { labelOf } from '@/store/moment/compare/runNames';
 import { extent, lookAt } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
@@ -19,7 +19,7 @@ export function Compared() {
   const branches = useSessionStore((session) => session.branches);
   const moment = useMoment((now) => now.shown?.t ?? null);
   if (other === null) return null;
-  const name = (run: string) => nameOf(run, { segments, branches });
+  const name = (run: string) => labelOf(run, { segments, branches });
   const note =
     failure !== ''
       ? failure

@@ -2,7 +2,7 @@ import { NativeSelect } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lookNow, openRun } from '@/store/moment/looking';
-import { nameOf } from '@/store/moment/compare/runNames';
+import { labelOf } from '@/store/moment/compare/runNames';
 import { useSource } from '@/store/moment/source';
 import { runsOf } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
@@ -17,7 +17,7 @@ export function RunSelect({ run }: { readonly run: string }) {
   const runs = useMemo(() => runsOf(segments), [segments]);
   if (isKept || runs.length < 2) return null;
   const last = runs.at(-1);
-  const name = (each: string) => nameOf(each, { segments, branches });
+  const name = (each: string) => labelOf(each, { segments, branches });
   return (
     <NativeSelect
       size="xs"

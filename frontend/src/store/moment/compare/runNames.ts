@@ -19,3 +19,10 @@ export function nameOf(run: string, session: NamedRuns): string {
   const parent = branch ? numberOf(branch.parent, session) : 0;
   return branch && parent > 0 ? text('axis:run.branch', { name, parent, t: branch.from_t.toFixed(1) }) : name;
 }
+
+/** Returns the name of a run and its result, in words and with a mark; a run that goes on has none. */
+export function labelOf(run: string, session: NamedRuns): string {
+  const name = nameOf(run, session);
+  const result = session.segments.findLast((each) => each.run === run)?.result;
+  return result ? text(`axis:run.ended.${result}`, { name }) : name;
+}

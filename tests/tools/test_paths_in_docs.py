@@ -23,7 +23,7 @@ TOPS: Final = (
 )
 # Files of a project, or of a package that we export.
 OF_USERS: Final = re.compile(
-    r"\.launch\.py$|^(?:actions|launch|evaluations|assets)/|^(?:judge|execute_docker)\.py$"
+    r"\.launch\.py$|^(?:actions|launch|evaluations|assets)/|^(?:judge|execute_docker|test_garden)\.py$"
 )
 
 

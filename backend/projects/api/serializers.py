@@ -158,14 +158,11 @@ class ProjectListSerializer(serializers.Serializer[Any]):
     next_offset = serializers.IntegerField(allow_null=True)
 
 
-class ProjectDetailSerializer(ProjectSummarySerializer):
+class ProjectDetailSerializer(ProjectSummarySerializer, ReportSerializer):
     """An opened project."""
 
     settings = ObjectField()
     files = FileSerializer(many=True)
-    actions = ActionSerializer(many=True)
-    diagnostics = DiagnosticSerializer(many=True)
-    checked = serializers.BooleanField(help_text=CHECKED)
 
 
 class ProposalSerializer(serializers.Serializer[Any]):
@@ -271,14 +268,11 @@ def file_changes(data: dict[str, Any]) -> list[FileChange]:
     ]
 
 
-class ChangesDoneSerializer(serializers.Serializer[Any]):
+class ChangesDoneSerializer(ReportSerializer):
     """The project after the change: all files, and the translator's findings."""
 
     revision = serializers.IntegerField()
     files = FileInfoSerializer(many=True)
-    actions = ActionSerializer(many=True)
-    diagnostics = DiagnosticSerializer(many=True)
-    checked = serializers.BooleanField(help_text=CHECKED)
 
 
 class TheirsSerializer(serializers.Serializer[Any]):

@@ -2,7 +2,9 @@ import type { components, operations } from '@/generated/api';
 import { dataOf, done, rest, urlOf } from './http';
 import type {
   ActionModel,
+  DistributionChange,
   OfferedAction,
+  RosDistro,
   ChangesResult,
   CheckResult,
   FieldInfo,
@@ -152,6 +154,14 @@ export const api = {
         ...abortedBy(signal),
       }),
     ),
+  /** The files of the project for another ROS distribution; nothing is written. */
+  changeDistribution: (id: string, ros_distro: RosDistro): Promise<DistributionChange> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/distribution', {
+        params: inProject(id),
+        body: { ros_distro, files: [] },
+      }),
+    ),
   /** Runs the behaviour tests of the project as it would be with these files. */
   test: (
     id: string,
@@ -211,8 +221,9 @@ export const api = {
     done(rest.DELETE('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
 
   templates: async (): Promise<TemplateInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/templates'))).items,
-  offeredActions: async (): Promise<OfferedAction[]> =>
-    (await dataOf(rest.GET('/api/v1/catalog/actions'))).items,
+  /** The nodes of Nav2 in a ROS distribution. */
+  offeredActions: async (ros_distro: RosDistro): Promise<OfferedAction[]> =>
+    (await dataOf(rest.GET('/api/v1/catalog/actions', { params: { query: { ros_distro } } }))).items,
   interfaces: async (): Promise<InterfaceName[]> =>
     (await dataOf(rest.GET('/api/v1/catalog/interfaces'))).items,
   interfaceFields: async (name: string): Promise<FieldInfo[]> =>

@@ -27,9 +27,16 @@ export type ActionModel = Needs<Omit<Server['Action'], 'ports' | 'diagnostics'>,
 type Checked<T extends Server['Report']> = Omit<T, keyof Server['Report'] | 'files' | 'settings'> & {
   diagnostics: Diagnostic[];
   actions: ActionModel[];
+  /** That of the project, stated or needed; absent if the project could not be checked. */
+  ros_distro?: RosDistro | null;
   /** `false`: the project could not be checked, so its actions are unknown. */
   checked?: boolean;
 };
+
+export type RosDistro = Server['RosDistroEnum'];
+
+/** What a change of the ROS distribution would do. */
+export type DistributionChange = Server['DistributionChange'];
 
 /** `project.json`. It is a file of the user: other keys are kept. */
 export interface ProjectSettings {
@@ -44,6 +51,8 @@ export interface ProjectSettings {
   on_error?: OnError;
   /** Absent: `live`. */
   time?: RunTime;
+  /** Absent: the one that has the project's nodes of Nav2. */
+  ros_distro?: RosDistro;
   [key: string]: unknown;
 }
 

@@ -4,7 +4,7 @@ import { api } from '@/api/client';
 import { ME } from '@/features/accounts/useMe';
 import { watchPython } from '@/store/problems/lint';
 import { useProjectStore } from '@/store/project';
-import { loadOffered } from '@/store/project/offered';
+import { followOffered } from '@/store/project/offered';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
 import { followRevisions } from '@/store/saving/live';
@@ -24,6 +24,7 @@ export function useProject(projectId: string): Opening {
     const loading = new AbortController();
     let unfollow: (() => void) | null = null;
     let unwatch: (() => void) | null = null;
+    let unoffer: (() => void) | null = null;
     api.getProject(projectId, loading.signal).then(
       (detail) => {
         useProjectStore.getState().load(detail);
@@ -37,7 +38,7 @@ export function useProject(projectId: string): Opening {
           .catch(() => undefined); // without an answer the page opens without a session, as after its end
         setOpening({ kind: 'open', joined });
         unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
-        void loadOffered();
+        unoffer = followOffered();
       },
       (error: Error) => {
         if (error.name !== 'AbortError') setOpening({ kind: 'failed', error });
@@ -47,6 +48,7 @@ export function useProject(projectId: string): Opening {
       loading.abort();
       unfollow?.();
       unwatch?.();
+      unoffer?.();
       stopAutosave();
       leave();
     };

@@ -1694,12 +1694,14 @@ export interface components {
         BlankEnum: "";
         /** @description The project after the change: all files, and the translator's findings. */
         ChangesDone: {
-            revision: number;
-            files: components["schemas"]["FileInfo"][];
-            actions: components["schemas"]["Action"][];
             diagnostics: components["schemas"]["Diagnostic"][];
+            actions: components["schemas"]["Action"][];
+            /** @description The one that the project states, or else the one that has the nodes of Nav2 in its trees; null if the project cannot be read. */
+            ros_distro: components["schemas"]["RosDistroEnum"] | components["schemas"]["NullEnum"];
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
+            revision: number;
+            files: components["schemas"]["FileInfo"][];
         };
         /** @description One user action on several files; it is carried out completely or not at all. */
         ChangesRequest: {
@@ -1852,7 +1854,7 @@ export interface components {
             newer: number;
             files: components["schemas"]["FileDiff"][];
         };
-        /** @description What a change of the ROS distribution does; nothing is written. */
+        /** @description The result of a change of the ROS distribution; nothing is written. */
         DistributionChange: {
             files: components["schemas"]["WrittenFile"][];
             /** @description Nodes and ports of the trees that Nav2 does not have there; they stay as they are. */
@@ -2128,14 +2130,16 @@ export interface components {
             } | null;
             /** @description Types of the tree that are conditions. */
             conditions: string[];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            actions: components["schemas"]["Action"][];
+            /** @description The one that the project states, or else the one that has the nodes of Nav2 in its trees; null if the project cannot be read. */
+            ros_distro: components["schemas"]["RosDistroEnum"] | components["schemas"]["NullEnum"];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
             settings: {
                 [key: string]: unknown;
             };
             files: components["schemas"]["File"][];
-            actions: components["schemas"]["Action"][];
-            diagnostics: components["schemas"]["Diagnostic"][];
-            /** @description false: the project could not be checked, so that its actions are not known. */
-            checked: boolean;
             /** @description null: the file names its universe, or its actions ask for none. */
             proposal: components["schemas"]["Proposal"] | null;
             /** @description Why a tree of py_trees is one block; empty if it is a tree of blocks. */
@@ -2513,14 +2517,16 @@ export interface components {
             } | null;
             /** @description Types of the tree that are conditions. */
             conditions: string[];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            actions: components["schemas"]["Action"][];
+            /** @description The one that the project states, or else the one that has the nodes of Nav2 in its trees; null if the project cannot be read. */
+            ros_distro: components["schemas"]["RosDistroEnum"] | components["schemas"]["NullEnum"];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
             settings: {
                 [key: string]: unknown;
             };
             files: components["schemas"]["File"][];
-            actions: components["schemas"]["Action"][];
-            diagnostics: components["schemas"]["Diagnostic"][];
-            /** @description false: the project could not be checked, so that its actions are not known. */
-            checked: boolean;
         };
         /** @description A page of projects; `next_offset` is null on the last page. */
         ProjectList: {

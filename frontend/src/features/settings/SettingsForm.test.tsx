@@ -2,7 +2,7 @@ import { screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { openSettings, useSettingsDialog } from '@/store/dialogs/settings';
 import { useProjectStore } from '@/store/project';
-import { openProject, show, user } from '../../../harness/testing';
+import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { Settings } from './Settings';
 import { SettingsForm } from './SettingsForm';
 
@@ -52,6 +52,48 @@ describe('SettingsForm', () => {
     expect(screen.getByRole('radio', { name: 'Stop' })).toBeChecked();
     expect(screen.getByRole('radio', { name: 'Stop the run' })).toBeChecked();
     expect(screen.getByRole('radio', { name: 'Live (as on a robot)' })).toBeChecked();
+  });
+
+  it('changes the distribution with its blocks, and says what that lacks', async () => {
+    const id = useProjectStore.getState().projectId;
+    const before = { name: 'Test', main_tree: 'Main' };
+    useProjectStore.getState().addFile('project.json', JSON.stringify(before));
+    const project = { ...before, ros_distro: 'humble' };
+    fakeServer({
+      [`POST /projects/${id}/changes`]: {
+        revision: 2,
+        files: [],
+        actions: [],
+        diagnostics: [],
+        checked: true,
+      },
+      [`POST /projects/${id}/distribution`]: {
+        files: [{ path: 'project.json', content: JSON.stringify(project) }],
+        lacks: ['PersistentSequence'],
+        kept: ['Wait'],
+      },
+    });
+    show(<SettingsForm />);
+    expect(screen.getByText(/The project states none: Jazzy has all its blocks/)).toBeVisible();
+    await pick('ROS 2 distribution of the robot', 'Humble');
+    await user.click(save());
+    expect(
+      await screen.findByText(
+        'The project is for Humble now. Nav2 in Humble does not have: PersistentSequence. Your own code stays: Wait.',
+      ),
+    ).toBeVisible();
+    expect(settings()?.ros_distro).toBe('humble');
+    await user.click(screen.getByRole('button', { name: 'Undo' }));
+    expect(settings()?.ros_distro).toBeUndefined();
+  });
+
+  it('says why the distribution stays', async () => {
+    fakeServer({});
+    show(<SettingsForm />);
+    await pick('ROS 2 distribution of the robot', 'Humble');
+    await user.click(save());
+    expect(await screen.findByRole('combobox', { name: 'ROS 2 distribution of the robot' })).toBeInvalid();
+    expect(useSettingsDialog.getState().isOpen).toBe(true);
   });
 
   it('keeps the changes of another user', async () => {

@@ -2,6 +2,9 @@ import { Button, Group, Radio, Select, Stack, Textarea, TextInput } from '@manti
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectSettings } from '@/api/types';
+import { ROS_DISTROS, titled, type RosDistro } from '@/model/rosDistros';
+import { changeDistribution, distributionOf, type Left } from '@/store/project/edits/distribution';
+import { undoNotification } from '@/ui/undoNotification';
 import { DEFAULT_TICK_HZ, RUN_TIMES, TICK_RATES } from '@/features/run/rates';
 import { LIMITS } from '@/generated/limits';
 import { useProjectStore } from '@/store/project';
@@ -36,11 +39,15 @@ export function SettingsForm() {
   const kept = useProjectStore((state) => state.settings);
   const isReadOnly = useProjectStore((state) => state.role === 'viewer');
   const trees = useProjectStore((state) => state.diagrams);
+  const found = useProjectStore(distributionOf);
+  const [refused, setRefused] = useState<string | null>(null);
+  const [isChanging, setChanging] = useState(false);
   const [form, setForm] = useState<Partial<ProjectSettings>>({});
   if (!kept) return null;
   const now = { ...kept, ...form };
   const set = (part: Partial<ProjectSettings>) => setForm((before) => ({ ...before, ...part }));
   const problem = projectNameProblem(now.name);
+  const distribution = form.ros_distro ?? found;
   const hz = now.tick_hz ?? DEFAULT_TICK_HZ;
   const rates = [...new Set<number>([...TICK_RATES, hz])].sort((a, b) => a - b);
 
@@ -48,11 +55,35 @@ export function SettingsForm() {
     event.preventDefault();
     if (problem) return;
     // Only the fields that were changed here are saved, since another user may have changed the others.
-    const { tick_hz, ...others } = form;
+    const { tick_hz, ros_distro, ...others } = form;
     if (others.name !== undefined) others.name = others.name.trim();
     if (Object.keys(others).length > 0) useProjectStore.getState().setSettings(others);
     if (tick_hz !== undefined && tick_hz !== kept.tick_hz) setTickRate(tick_hz);
-    closeSettings();
+    if (ros_distro === undefined || ros_distro === kept.ros_distro) closeSettings();
+    else void toDistribution(ros_distro);
+  };
+
+  const toDistribution = async (name: RosDistro) => {
+    setChanging(true);
+    try {
+      const left = await changeDistribution(name);
+      closeSettings();
+      if (left) tellChanged(name, left);
+    } catch (error) {
+      setRefused(error instanceof Error ? error.message : String(error));
+    } finally {
+      setChanging(false);
+    }
+  };
+
+  const tellChanged = (name: RosDistro, { lacks, kept: own }: Left) => {
+    const parts = [
+      t('changed', { name: titled(name) }),
+      lacks.length > 0 ? t('lacks', { name: titled(name), list: lacks.join(', ') }) : '',
+      own.length > 0 ? t('keptCode', { list: own.join(', ') }) : '',
+    ];
+    const { undo } = useProjectStore.getState();
+    undoNotification({ message: parts.filter(Boolean).join(' '), undoLabel: t('undo'), undo: () => undo() });
   };
 
   return (
@@ -94,6 +125,21 @@ export function SettingsForm() {
             onChange={(rate) => set({ tick_hz: Number(rate) })}
           />
         </Group>
+        <Select
+          label={t('distribution')}
+          description={t(kept.ros_distro === undefined ? 'distributionFound' : 'distributionHelp', {
+            name: titled(found),
+          })}
+          data={ROS_DISTROS.map((value) => ({ value, label: titled(value) }))}
+          value={distribution}
+          error={refused}
+          allowDeselect={false}
+          disabled={isReadOnly}
+          onChange={(value) => {
+            const ros_distro = ROS_DISTROS.find((each) => each === value);
+            if (ros_distro) set({ ros_distro });
+          }}
+        />
         <fieldset disabled={isReadOnly} style={{ border: 0, margin: 0, padding: 0, minWidth: 0 }}>
           <Stack gap="md">
             <Choice
@@ -120,7 +166,7 @@ export function SettingsForm() {
           <Button variant="default" onClick={closeSettings}>
             {t('cancel')}
           </Button>
-          <Button type="submit" disabled={isReadOnly || problem !== null}>
+          <Button type="submit" loading={isChanging} disabled={isReadOnly || problem !== null}>
             {t('save')}
           </Button>
         </Group>

@@ -98,6 +98,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
         revision: detail.revision,
         actions: detail.actions,
         diagnostics: whileEditing(detail.diagnostics),
+        rosDistro: detail.ros_distro ?? null,
         activeTree: main in opened.diagrams ? main : (Object.keys(opened.diagrams)[0] ?? null),
       };
       set(knowing(data));
@@ -267,9 +268,10 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
 
     setChecked: (result) => {
       set((state) => {
-        const { diagnostics, actions } = findingsAfter(state, result);
+        const { diagnostics, actions, rosDistro } = findingsAfter(state, result);
         return knowing({
           ...state,
+          rosDistro,
           diagnostics: confirmed(state.diagnostics, diagnostics),
           actions: confirmed(state.actions, actions),
         });
@@ -279,10 +281,11 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     applySaved: (sent, result) => {
       set((state) => {
         const saved = applySaved(state, sent, result);
-        const { diagnostics, actions } = findingsAfter(state, result);
+        const { diagnostics, actions, rosDistro } = findingsAfter(state, result);
         return knowing({
           ...state,
           ...saved,
+          rosDistro,
           revision: result.revision,
           actions: actionsAfter(state.actions, actions, saved.files),
           diagnostics: confirmed(state.diagnostics, whileEditing(diagnostics)),

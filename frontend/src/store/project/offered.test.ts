@@ -1,8 +1,8 @@
-import { beforeEach, describe, expect, it } from 'vitest';
-import { action, openProject } from '../../../harness/testing';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { action, fakeServer, openProject } from '../../../harness/testing';
 import { achieve, addHere } from './edits/blocks';
 import { useProjectStore } from './index';
-import { filesFor, offer, offeredSpec, useOfferedStore } from './offered';
+import { filesFor, followOffered, offer, offeredSpec, useOfferedStore } from './offered';
 
 const SOURCE = 'class RecoveryNode(ControlNode):\n    pass\n';
 const PATH = 'actions/RecoveryNode.py';
@@ -50,4 +50,25 @@ describe('offered actions', () => {
     expect(offeredSpec('Forward')).toBeUndefined();
     expect(useOfferedStore.getState().specs.map(({ source }) => source)).toEqual(['offered']);
   });
+});
+
+it("offers what the project's distribution has, also after a change of it", async () => {
+  openProject({ trees: { Main: { r: { type: 'Sequence' } } } });
+  const node = (name: string) => [{ ...action(`Node_${name}`), text: '' }];
+  const { requests } = fakeServer({
+    'GET /catalog/actions?ros_distro=jazzy': node('jazzy'),
+    'GET /catalog/actions?ros_distro=humble': node('humble'),
+  });
+  const offered = () => useOfferedStore.getState().specs.map(({ type }) => type);
+  const stop = followOffered();
+  await vi.waitFor(() => expect(offered()).toEqual(['Node_jazzy']));
+  store().setSettings({ ros_distro: 'humble' });
+  await vi.waitFor(() => expect(offered()).toEqual(['Node_humble']));
+  store().setSettings({ ros_distro: 'jazzy' });
+  await vi.waitFor(() => expect(offered()).toEqual(['Node_jazzy']));
+  expect(requests).toHaveLength(2); // each is asked for once
+  stop();
+  store().setSettings({ ros_distro: 'humble' });
+  expect(offered()).toEqual(['Node_jazzy']);
+  offer([]);
 });

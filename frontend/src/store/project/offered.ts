@@ -1,9 +1,11 @@
 import { create } from 'zustand';
 import { api } from '@/api/client';
 import type { OfferedAction } from '@/api/types';
+import type { RosDistro } from '@/model/rosDistros';
 import type { Kind } from '@/model/rules';
 import { actionSpec, type NodeSpec } from '@/model/vocabulary';
 import { useProjectStore } from './index';
+import { distributionOf } from './edits/distribution';
 import { actionPath } from './state';
 
 interface OfferedState {
@@ -23,14 +25,30 @@ export function offer(actions: readonly OfferedAction[]): void {
   });
 }
 
-/** Asks the server once which nodes are offered; without an answer the palette does not show this family. */
-export async function loadOffered(): Promise<void> {
-  if (useOfferedStore.getState().specs.length > 0) return;
+const known = new Map<RosDistro, Promise<OfferedAction[]>>();
+
+/**
+ * Offers the nodes of the project's distribution; each is asked for once. Without an answer the palette does
+ * not show this family.
+ */
+async function loadOffered(): Promise<void> {
+  const name = distributionOf(useProjectStore.getState());
+  const asked = known.get(name) ?? api.offeredActions(name);
+  known.set(name, asked);
   try {
-    offer(await api.offeredActions());
+    const actions = await asked;
+    if (name === distributionOf(useProjectStore.getState())) offer(actions);
   } catch {
-    // The next opening of a project asks again.
+    known.delete(name); // the next opening of a project asks again
   }
+}
+
+/** Offers what the open project's distribution has, until the returned function is called. */
+export function followOffered(): () => void {
+  void loadOffered();
+  return useProjectStore.subscribe((now, before) => {
+    if (distributionOf(now) !== distributionOf(before)) void loadOffered();
+  });
 }
 
 export const offeredSpec = (type: string): NodeSpec | undefined =>

@@ -1,4 +1,5 @@
 import type { ProjectDetail, ProjectSettings } from '@/api/types';
+import { ROS_DISTROS } from '@/model/rosDistros';
 
 const isText = (value: unknown): boolean => typeof value === 'string';
 const isOneOf =
@@ -16,6 +17,7 @@ const FITS: Readonly<Record<string, (value: unknown) => boolean>> = {
   on_finish: isOneOf('stop', 'repeat'),
   on_error: isOneOf('stop', 'failure'),
   time: isOneOf('exact', 'live'),
+  ros_distro: isOneOf(...ROS_DISTROS),
 };
 
 const fits = (key: string, value: unknown): boolean => FITS[key]?.(value) ?? true;

@@ -1,11 +1,13 @@
 import type {
   ActionModel,
   ChangesResult,
+  CheckResult,
   Diagnostic,
   FileChange,
   ProjectDetail,
   ProjectRole,
   ProjectSettings,
+  RosDistro,
 } from '@/api/types';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Recipe } from '@/model/edits';
@@ -41,6 +43,8 @@ export interface ProjectData {
   readonly diagrams: Readonly<Record<string, Diagram>>;
   readonly actions: readonly ActionModel[];
   readonly diagnostics: readonly Diagnostic[];
+  /** The ROS distribution of the project as the server last found it. */
+  readonly rosDistro: RosDistro | null;
   readonly vocabulary: Vocabulary;
   readonly histories: Readonly<Record<string, UndoStack>>;
   readonly activeTree: string | null;
@@ -59,9 +63,15 @@ export interface EditOptions {
   readonly select?: readonly NodeId[];
   /** Other trees that change in the same step; null deletes one. */
   readonly also?: Readonly<Record<string, Diagram | null>>;
-  /** Texts of files by path that the same step writes: new files and replaced ones, other trees among them. */
-  readonly files?: Readonly<Record<string, string>>;
+  /** Texts of files by path that the same step writes: new and replaced ones, other trees among them; null removes one. */
+  readonly files?: Readonly<Record<string, string | null>>;
 }
+
+/** The findings about a project in an answer of the server. */
+export type Answer = Pick<CheckResult, 'checked' | 'ros_distro'> & {
+  readonly diagnostics: readonly Diagnostic[];
+  readonly actions: readonly ActionModel[];
+};
 
 export interface ProjectActions {
   load(detail: ProjectDetail): void;
@@ -85,7 +95,7 @@ export interface ProjectActions {
   addFile(path: string, text: string): void;
   deleteFile(path: string): void;
   setSettings(patch: Partial<ProjectSettings>): void;
-  setChecked(checked: { diagnostics: readonly Diagnostic[]; actions: readonly ActionModel[] }): void;
+  setChecked(checked: Answer): void;
   /** Returns the changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;

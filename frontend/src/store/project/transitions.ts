@@ -1,5 +1,4 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
-import type { CheckResult } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
 import { emptyUndo, record, type Renaming } from '@/model/undo';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
@@ -7,14 +6,14 @@ import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
 import { withLastDeclarations } from './declarations';
 import { currentText, syncTrees } from './files';
-import { actionPath, treePath, type EditOptions, type ProjectData } from './state';
+import { actionPath, treePath, type Answer, type EditOptions, type ProjectData } from './state';
 import { withTexts } from './writtenFiles';
 
 enablePatches();
 
 export type Diagrams = Readonly<Record<string, Diagram>>;
 
-type Findings = Pick<ProjectData, 'diagnostics' | 'actions'>;
+type Findings = Pick<ProjectData, 'diagnostics' | 'actions' | 'rosDistro'>;
 
 export const initialData: ProjectData = {
   projectId: null,
@@ -30,6 +29,7 @@ export const initialData: ProjectData = {
   diagrams: {},
   actions: [],
   diagnostics: [],
+  rosDistro: null,
   vocabulary: makeVocabulary(catalog),
   histories: {},
   activeTree: null,
@@ -63,11 +63,13 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 const NOT_CHECKED = 'BT0009';
 
 /** Returns the findings after a check; if the server could not check, the earlier findings stay. */
-export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
-  const { checked, diagnostics, actions } = answer;
-  if (checked !== false) return { diagnostics, actions: withLastDeclarations(before.actions, actions) };
+export function findingsAfter(before: Findings, answer: Answer): Findings {
+  const { checked, diagnostics, actions, ros_distro } = answer;
+  const rosDistro = ros_distro ?? before.rosDistro;
+  if (checked !== false)
+    return { diagnostics, actions: withLastDeclarations(before.actions, actions), rosDistro };
   const earlier = before.diagnostics.filter(({ code }) => code !== NOT_CHECKED);
-  return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
+  return { diagnostics: [...earlier, ...diagnostics], actions: before.actions, rosDistro };
 }
 
 /** Returns the old object if the new data are equal to it, so that nothing is drawn again. */

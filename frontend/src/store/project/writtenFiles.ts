@@ -1,11 +1,13 @@
 import type { ActionModel } from '@/api/types';
 import type { UndoEntry } from '@/model/undo';
 import { currentText, tryParse } from './files';
+import { readSettings } from './settings';
 import { treeIdOf, type FileEntry, type ProjectData } from './state';
 
 /** Texts by path; null removes the file. */
 type Texts = Readonly<Record<string, string | null>>;
 
+const PROJECT_FILE = 'project.json';
 const ACTION = /^actions\/([^/]+)\.py$/;
 
 /** Returns the kind of an action that the server has not read yet, by the words that declare it. */
@@ -57,6 +59,16 @@ function withTree(data: ProjectData, id: string, path: string, text: string | nu
   return { ...bare, diagrams: { ...diagrams, [id]: diagram } };
 }
 
+/** Returns the settings that a text of `project.json` states; none if it cannot be read. */
+function settingsIn({ name, mainTree: main_tree }: ProjectData, text: string): Partial<ProjectData> {
+  try {
+    const settings = readSettings({ name, main_tree, settings: JSON.parse(text) as Record<string, unknown> });
+    return { settings, mainTree: settings.main_tree, name: settings.name };
+  } catch {
+    return {};
+  }
+}
+
 /** Writes and removes files, trees among them; `knowing` completes the result. */
 export function withTexts(data: ProjectData, texts: Texts): ProjectData {
   let next = data;
@@ -64,6 +76,7 @@ export function withTexts(data: ProjectData, texts: Texts): ProjectData {
     const id = treeIdOf(path);
     if (id !== null) next = withTree(next, id, path, text);
     else next = text === null ? without(next, path) : withTextFile(next, path, text);
+    if (path === PROJECT_FILE && text !== null) next = { ...next, ...settingsIn(next, text) };
   }
   const actions = actionsWith(data.actions, texts);
   return actions === data.actions ? next : { ...next, actions };

@@ -358,3 +358,36 @@ it('scrolls to a block on request', async () => {
   expect(now.selection()).toEqual(['b']);
   onTestFinished(() => store().select('Main', []));
 });
+
+describe('a tree that does not fit', () => {
+  const leaves = Array.from({ length: 150 }, (_, at) => `n${at}`);
+  const large = {
+    root: 'r',
+    nodes: {
+      r: { type: 'Sequence', children: ['a', ...leaves] },
+      a: { type: 'Sleep' },
+      ...Object.fromEntries(leaves.map((id) => [id, { type: 'Sleep' }])),
+    },
+  };
+
+  it('is drawn as a whole when it is seen from far, and Enter goes to the selected block', async () => {
+    const { store: flow } = open(large);
+    act(() => flow.setState({ transform: [0, 0, 0.3] }));
+    expect(canvas()).not.toHaveAttribute('data-whole');
+    act(() => flow.setState({ transform: [0, 0, 0.2] }));
+    expect(canvas()).toHaveAttribute('data-whole', 'true');
+    expect(await screen.findByTestId('whole-tree')).toBeInTheDocument();
+    expect(document.querySelector('.react-flow__edge')).toBeNull();
+    select('n4');
+    canvas().focus();
+    fireEvent.keyDown(canvas(), { key: 'Enter' });
+    await waitFor(() => expect(canvas()).not.toHaveAttribute('data-whole'));
+    expect(now.selection()).toEqual(['n4']);
+  });
+
+  it('is not, where all of it fits at a zoom at which it can be read', () => {
+    const { store: flow } = open();
+    act(() => flow.setState({ transform: [0, 0, 0.1] }));
+    expect(canvas()).not.toHaveAttribute('data-whole');
+  });
+});

@@ -6,11 +6,12 @@ import {
   type EdgeChange,
   type NodeChange,
 } from '@xyflow/react';
-import { useCallback, useMemo, useRef, useState, type MouseEvent } from 'react';
+import { Suspense, useCallback, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { CoverageLegend } from '@/features/behaviourTests/CoverageLegend';
 import { FollowingChip } from '@/features/run/FollowingChip';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
+import type { NodeId } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
@@ -23,7 +24,7 @@ import { Dots } from './view/Dots';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
-import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { asTiny, FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { openBlock } from './commands/selectedBlock';
 import { enterInside, isMenuKey, onCanvasKey } from './gestures/keyboard';
 import { OutOfSight } from './view/OutOfSight';
@@ -40,12 +41,20 @@ import { usePaletteDrop } from './gestures/usePaletteDrop';
 import { useRefit } from './view/useRefit';
 import { useReveal } from './view/useReveal';
 import { useTree } from './useTree';
+import { TinyBlock } from './view/TinyBlock';
 import { FAR, LEAST_ZOOM, NAMES, useViewport } from './view/useViewport';
+import { useWhole, WholeTree } from './whole/useWhole';
 import classes from './Canvas.module.css';
 
-const nodeTypes = { block: Block };
+const nodeTypes = { block: Block, tiny: TinyBlock };
 const edgeTypes = { tree: TreeEdge };
 const DELETE_KEYS: string[] = [];
+const NO_EDGES: TreeEdgeType[] = [];
+const NO_MARKS = new Map();
+const NO_HITS: ReadonlySet<NodeId> = new Set();
+/** Whether Enter is pressed on the canvas itself, and not in a field on it. */
+const isEnter = ({ key, ctrlKey, metaKey, target, currentTarget }: KeyboardEvent): boolean =>
+  key === 'Enter' && !ctrlKey && !metaKey && target === currentTarget;
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
 /**
  * Returns whether an element belongs to a toolbar or the breadcrumbs: a press there must leave the keyboard
@@ -73,7 +82,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const box = useBoxSelection(treeId);
   const palette = usePaletteDrop(tree);
   const viewport = useViewport(treeId, tree.layout, tree.diagram);
-  useReveal(treeId, tree.layout);
+  const { isWhole, enter } = useWhole(treeId, tree);
+  const [hits, setHits] = useState(NO_HITS);
+  const onFound = useCallback((ids: readonly NodeId[]) => setHits(new Set(ids)), []);
+  useReveal(treeId, tree.layout, isWhole);
   useRefit(tree);
 
   const [projection] = useState(() => new FlowProjection());
@@ -84,7 +96,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     () => projection.project({ diagram, shown, layout, vocabulary, problems, selection }),
     [projection, diagram, shown, layout, vocabulary, problems, selection],
   );
-  const nodes = useMemo(() => withHeld(resting, held), [resting, held]);
+  const nodes = useMemo(
+    () => (isWhole ? asTiny(resting) : withHeld(resting, held)),
+    [resting, held, isWhole],
+  );
   const shownEdges = useMemo(
     () =>
       chosenEdge === null
@@ -119,14 +134,18 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   }, []);
 
   const openMenu = useCallback(
-    (event: MouseEvent | globalThis.MouseEvent, node: BlockNode | null) => {
+    (event: MouseEvent | globalThis.MouseEvent, id: NodeId | null) => {
       event.preventDefault();
-      if (node?.data.inside) return;
+      if (id !== null && shown.inside.has(id)) return;
       const { selection: chosen, select } = useProjectStore.getState();
-      if (node && !chosen.includes(node.id)) select(treeId, [node.id]);
-      setMenu({ x: event.clientX, y: event.clientY, isOnBlock: node !== null });
+      if (id !== null && !chosen.includes(id)) select(treeId, [id]);
+      setMenu({ x: event.clientX, y: event.clientY, isOnBlock: id !== null });
     },
-    [treeId],
+    [treeId, shown],
+  );
+  const onNodeContextMenu = useCallback(
+    (event: MouseEvent, { id }: BlockNode) => openMenu(event, id),
+    [openMenu],
   );
 
   const openMenuByKeys = (): void => {
@@ -172,6 +191,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       data-tree={treeId}
       data-far={isFar || undefined}
       data-names={hasNamesOnly || undefined}
+      data-whole={isWhole || undefined}
       data-paused={isPaused || undefined}
       role="application"
       aria-label={t('label', { tree: treeId })}
@@ -185,6 +205,9 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
           event.preventDefault();
         } else if (isMenuKey(event) && event.target === event.currentTarget) {
           openMenuByKeys();
+          event.preventDefault();
+        } else if (isWhole && isEnter(event)) {
+          enter(useProjectStore.getState().selection[0] ?? null);
           event.preventDefault();
         } else onCanvasKey(event);
       }}
@@ -219,7 +242,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     >
       <ReactFlow<BlockNode, TreeEdgeType>
         nodes={nodes}
-        edges={shownEdges}
+        edges={isWhole ? NO_EDGES : shownEdges}
         nodeTypes={nodeTypes}
         edgeTypes={edgeTypes}
         onNodesChange={onNodesChange}
@@ -230,7 +253,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         onSelectionStart={box.onSelectionStart}
         onNodeClick={onNodeClick}
         onNodeDoubleClick={onNodeDoubleClick}
-        onNodeContextMenu={openMenu}
+        onNodeContextMenu={onNodeContextMenu}
         onPaneContextMenu={onPaneContextMenu}
         isValidConnection={connecting.isValidConnection}
         onConnectStart={connecting.onConnectStart}
@@ -258,14 +281,29 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         <Dots />
         <SlotMark />
       </ReactFlow>
-      {isMinimapShown(minimap, nodes.length) && <Overview nodes={resting} edges={edges} />}
+      {isWhole && (
+        <Suspense fallback={null}>
+          <WholeTree
+            diagram={shown.diagram}
+            inside={shown.inside}
+            vocabulary={vocabulary}
+            problems={problems}
+            selection={selection}
+            marks={NO_MARKS}
+            hits={find ? hits : NO_HITS}
+            onEnter={enter}
+            onMenu={openMenu}
+          />
+        </Suspense>
+      )}
+      {!isWhole && isMinimapShown(minimap, nodes.length) && <Overview nodes={resting} edges={edges} />}
       {nodes.length === 0 && <EmptyTree treeId={treeId} />}
-      <OutOfSight layout={layout} onBack={focus} />
+      {!isWhole && <OutOfSight layout={layout} onBack={focus} />}
       <Breadcrumbs treeId={treeId} />
       <CanvasToolbar treeId={treeId} />
       <CoverageLegend treeId={treeId} />
       <FollowingChip />
-      {find && <FindBar treeId={treeId} onClose={focus} />}
+      {find && <FindBar treeId={treeId} onClose={focus} isWhole={isWhole} onFound={onFound} />}
       <BlockMenu
         point={menu}
         onClose={() => {

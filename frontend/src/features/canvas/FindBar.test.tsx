@@ -1,4 +1,4 @@
-import { act, fireEvent, screen } from '@testing-library/react';
+import { act, cleanup, fireEvent, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
@@ -70,6 +70,17 @@ describe('FindBar', () => {
     await user.type(field(), 'sleep');
     await user.type(field(), 'zz{Enter}');
     expect(count()).toBe('0 of 0');
+    expect(now.selection()).toEqual(['a']);
+  });
+
+  it('marks in the whole of a tree while the user types, and goes there with Enter', async () => {
+    cleanup();
+    const onFound = vi.fn();
+    show(<FindBar treeId="Main" onClose={onClose} isWhole onFound={onFound} />);
+    await user.type(field(), 'sleep');
+    expect(onFound).toHaveBeenLastCalledWith(['a', 'b', 'c']);
+    expect(now.selection()).toEqual([]);
+    await user.keyboard('{Enter}');
     expect(now.selection()).toEqual(['a']);
   });
 

@@ -2,6 +2,7 @@ import { ActionIcon } from '@mantine/core';
 import { IconChevronDown, IconChevronUp, IconX } from '@tabler/icons-react';
 import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { NodeId } from '@/model/diagram';
 import { findNodes } from '@/model/find';
 import { setEditor } from '@/store/project/editor';
 import { letGoOfDocument } from '@/workspace/focus';
@@ -11,10 +12,14 @@ import classes from './Canvas.module.css';
 interface FindBarProps {
   readonly treeId: string;
   readonly onClose: () => void;
+  /** Whether what is found is marked in the whole of the tree; then Enter goes to it, and typing does not. */
+  readonly isWhole?: boolean;
+  /** Called with the blocks that are found. */
+  readonly onFound?: (ids: readonly NodeId[]) => void;
 }
 
 /** The search bar for names, types, ports and comments of the tree; Enter selects the next match. */
-export function FindBar({ treeId, onClose }: FindBarProps) {
+export function FindBar({ treeId, onClose, isWhole = false, onFound }: FindBarProps) {
   const { t } = useTranslation('canvas');
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => {
@@ -26,6 +31,7 @@ export function FindBar({ treeId, onClose }: FindBarProps) {
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
   const reveal = useProjectStore((state) => state.reveal);
   const found = useMemo(() => (diagram ? findNodes(diagram, text) : []), [diagram, text]);
+  useEffect(() => onFound?.(found), [found, onFound]);
 
   const go = (to: number): void => {
     const at = (to + found.length) % Math.max(1, found.length);
@@ -50,11 +56,11 @@ export function FindBar({ treeId, onClose }: FindBarProps) {
           setText(next);
           setIndex(0);
           const [first] = diagram ? findNodes(diagram, next) : [];
-          if (first !== undefined) reveal(treeId, first);
+          if (first !== undefined && !isWhole) reveal(treeId, first);
         }}
         onKeyDown={(event) => {
           event.stopPropagation();
-          if (event.key === 'Enter') go(index + (event.shiftKey ? -1 : 1));
+          if (event.key === 'Enter') go(isWhole ? index : index + (event.shiftKey ? -1 : 1));
           if (event.key === 'Escape') close();
         }}
       />

@@ -1,4 +1,4 @@
-import { fireEvent, screen } from '@testing-library/react';
+import { fireEvent, screen, waitFor } from '@testing-library/react';
 import { beforeEach, expect, it, vi } from 'vitest';
 import { openDiagram, showDrawn } from '../../../harness/canvas';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
@@ -45,7 +45,7 @@ it('marks blocks, selects and opens them, and offers no place for new ones', asy
   expect(canvas.querySelector('[class*="plus"]')).toBeNull();
 });
 
-it('draws a tree that is seen from afar as one picture, whose blocks can be pressed', async () => {
+it('draws a tree that does not fit as a whole, whose blocks can be pressed', async () => {
   const leaves = Array.from({ length: 140 }, (_, index) => `n${index}`);
   const wide: Diagram = {
     ...emptyDiagram('Main'),
@@ -55,8 +55,6 @@ it('draws a tree that is seen from afar as one picture, whose blocks can be pres
       ...Object.fromEntries(leaves.map((id) => [id, { type: 'Sleep' }])),
     },
   };
-  // The picture itself is that of `tinyTree.test.ts`.
-  vi.stubGlobal('Path2D', Object);
   const onSelect = vi.fn();
   await showDrawn(
     <ReadOnlyCanvas
@@ -69,8 +67,10 @@ it('draws a tree that is seen from afar as one picture, whose blocks can be pres
       marks={new Map()}
     />,
   );
-  expect(await screen.findByTestId('tiny-picture')).toBeInTheDocument();
+  expect(await screen.findByTestId('whole-tree')).toBeInTheDocument();
   expect(screen.getByTestId('node-n7')).toBeEmptyDOMElement();
-  fireEvent.click(screen.getByTestId('node-n7'));
-  expect(onSelect).toHaveBeenCalledWith('n7');
+  const tree = screen.getByRole('tree', { name: 'The whole of Main' });
+  fireEvent.click(tree, { clientX: 5, clientY: 5 });
+  expect(onSelect).toHaveBeenCalledWith('r');
+  await waitFor(() => expect(screen.queryByTestId('whole-tree')).toBeNull());
 });

@@ -1,6 +1,7 @@
 import { ReactFlow, ReactFlowProvider, useReactFlow, useStore } from '@xyflow/react';
 import '@xyflow/react/dist/style.css';
 import {
+  Suspense,
   useCallback,
   useEffect,
   useMemo,
@@ -15,16 +16,16 @@ import { expandTrees } from '@/model/expand';
 import { layoutTree } from '@/model/layout';
 import type { Vocabulary } from '@/model/vocabulary';
 import { Block } from './block/Block';
-import { FlowProjection, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { asTiny, FlowProjection, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { neighbourByKey } from './gestures/keyboard';
 import { TreeEdge } from './TreeEdge';
 import { useCompact } from './view/compact';
 import { Dots } from './view/Dots';
 import { TinyBlock } from './view/TinyBlock';
-import { TinyPicture } from './view/TinyPicture';
-import { TINY } from './view/tinyTree';
 import { useKnownSizes } from './view/useKnownSizes';
 import { FAR, FIT, LEAST_ZOOM, NAMES } from './view/useViewport';
+import { useEnter } from './whole/useEnter';
+import { useSeenWhole, WholeTree } from './whole/useWhole';
 import classes from './Canvas.module.css';
 
 interface Props {
@@ -43,7 +44,7 @@ const nodeTypes = { block: Block, tiny: TinyBlock };
 const edgeTypes = { tree: TreeEdge };
 const NO_PROBLEMS = new Map();
 const NO_EDGES: TreeEdgeType[] = [];
-type AnyNode = Omit<BlockNode, 'type'> & { type?: 'block' | 'tiny' };
+const NO_HITS: ReadonlySet<NodeId> = new Set();
 
 /** The canvas of a tree that cannot be edited; it shows the statuses of the moment at which the user looks. */
 export function ReadOnlyCanvas(props: Props) {
@@ -56,7 +57,6 @@ export function ReadOnlyCanvas(props: Props) {
 
 function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }: Props) {
   useKnownSizes();
-  const isTiny = useStore((state) => state.transform[2] < TINY);
   const isFar = useStore((state) => state.transform[2] < FAR);
   const hasNamesOnly = useStore(({ transform: [, , zoom] }) => zoom < NAMES && zoom >= FAR);
   const isCompact = useCompact((state) => state.isCompact);
@@ -65,27 +65,31 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
     () => layoutTree(diagram, vocabulary, { isCompact }),
     [diagram, vocabulary, isCompact],
   );
+  const isWhole = useSeenWhole(layout);
+  const shown = useMemo(() => expandTrees(diagram, {}, new Set()), [diagram]);
+  const selection = useMemo(() => new Set(selected === null ? [] : [selected]), [selected]);
   const { nodes: plain, edges } = useMemo(
     () =>
       projection.project({
         diagram,
-        shown: expandTrees(diagram, {}, new Set()),
+        shown,
         layout,
         vocabulary,
         problems: NO_PROBLEMS,
-        selection: new Set(selected === null ? [] : [selected]),
+        selection,
         isReadOnly: true,
       }),
-    [projection, diagram, layout, vocabulary, selected],
+    [projection, diagram, shown, layout, vocabulary, selection],
   );
   const nodes = useMemo(
     () =>
-      plain.map((node): AnyNode => {
-        if (isTiny) return { ...node, type: 'tiny' };
-        const kind = marks.get(node.id);
-        return kind === undefined ? node : { ...node, className: classes[`mark_${kind}`] ?? '' };
-      }),
-    [plain, marks, isTiny],
+      isWhole
+        ? asTiny(plain)
+        : plain.map((node): BlockNode => {
+            const kind = marks.get(node.id);
+            return kind === undefined ? node : { ...node, className: classes[`mark_${kind}`] ?? '' };
+          }),
+    [plain, marks, isWhole],
   );
   // The tab may get its size after it was drawn; a view that the user has chosen stays.
   const flow = useReactFlow();
@@ -94,12 +98,21 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
   useEffect(() => {
     if (!isMoved.current) void flow.fitView(FIT);
   }, [flow, size]);
-  const onNodeClick = useCallback((_: MouseEvent, { id }: AnyNode) => onSelect(id), [onSelect]);
-  const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: AnyNode) => onOpen(id), [onOpen]);
+  const onEntered = useCallback(
+    (id: NodeId) => {
+      isMoved.current = true;
+      onSelect(id);
+    },
+    [onSelect],
+  );
+  const enter = useEnter({ diagram, layout }, onEntered);
+  const onNodeClick = useCallback((_: MouseEvent, { id }: BlockNode) => onSelect(id), [onSelect]);
+  const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: BlockNode) => onOpen(id), [onOpen]);
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const next = neighbourByKey(diagram, selected, event.key);
     if (next !== null) onSelect(next);
+    else if (event.key === 'Enter' && isWhole) enter(selected);
     else if (event.key === 'Enter' && selected !== null) onOpen(selected);
     else return;
     event.preventDefault();
@@ -115,15 +128,16 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
       data-readonly=""
       data-far={isFar || undefined}
       data-names={hasNamesOnly || undefined}
+      data-whole={isWhole || undefined}
       role="application"
       aria-label={label}
       // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
-      <ReactFlow<AnyNode, TreeEdgeType>
+      <ReactFlow<BlockNode, TreeEdgeType>
         nodes={nodes}
-        edges={isTiny ? NO_EDGES : edges}
+        edges={isWhole ? NO_EDGES : edges}
         nodeTypes={nodeTypes}
         edgeTypes={edgeTypes}
         onNodeClick={onNodeClick}
@@ -148,8 +162,21 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
         attributionPosition="bottom-right"
       >
         <Dots />
-        {isTiny && <TinyPicture nodes={plain} edges={edges} marks={marks} />}
       </ReactFlow>
+      {isWhole && (
+        <Suspense fallback={null}>
+          <WholeTree
+            diagram={diagram}
+            inside={shown.inside}
+            vocabulary={vocabulary}
+            problems={NO_PROBLEMS}
+            selection={selection}
+            marks={marks}
+            hits={NO_HITS}
+            onEnter={enter}
+          />
+        </Suspense>
+      )}
     </div>
   );
 }

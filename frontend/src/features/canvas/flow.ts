@@ -29,7 +29,7 @@ export interface BlockData extends Record<string, unknown> {
   readonly inside: Inside | null;
 }
 
-export type BlockNode = Node<BlockData, 'block'>;
+export type BlockNode = Node<BlockData, 'block' | 'tiny'>;
 export type TreeEdge = Edge<{ tree: string; node: NodeId; isHorizontal: boolean }, 'tree'>;
 
 export interface FlowInput {
@@ -197,6 +197,10 @@ export function withHeld(nodes: readonly BlockNode[], held: NodeId | null): Bloc
   if (held === null) return nodes as BlockNode[];
   return nodes.map((node) => (node.id === held ? { ...node, dragging: true } : node));
 }
+
+/** Returns the blocks of a tree that is seen as a whole: their places alone, since its picture shows them. */
+export const asTiny = (nodes: readonly BlockNode[]): BlockNode[] =>
+  nodes.map((node) => ({ ...node, type: 'tiny' }));
 
 /** Returns the position of a node among its siblings for screen readers: "2 of 3". */
 export function ordinal(

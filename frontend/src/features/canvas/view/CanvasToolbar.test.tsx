@@ -25,7 +25,7 @@ describe('the zoom', () => {
     act(() => flow.store.setState({ transform: [0, 0, 0.456] }));
     expect(button('46% · Zoom to 100 %')).toHaveTextContent('46%');
     await press(/Zoom to 100/);
-    expect(flow.view.scaleTo).toHaveBeenCalledExactlyOnceWith(1, { duration: 150 });
+    expect(flow.view.scaleTo).toHaveBeenCalledExactlyOnceWith(1, { duration: 120 });
   });
 
   it('can be increased and decreased', async () => {

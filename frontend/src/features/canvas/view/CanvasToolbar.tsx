@@ -28,7 +28,7 @@ import { FIT_KEYS } from '../commands/canvasCommands';
 import type { BlockNode, TreeEdge } from '../flow';
 import { toggleCompact, useCompact } from './compact';
 import { FIT } from './useViewport';
-import { fitSelection, showsTree } from './views';
+import { fit, fitSelection, showsTree, zoomIn, zoomReset } from './views';
 import classes from '../Canvas.module.css';
 
 /** The canvas size below which the tools are combined into one button, since they would cover the tree. */
@@ -108,18 +108,18 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           <button
             type="button"
             className={classes['zoom']}
-            onClick={() => void flow.zoomTo(1, { duration: 150 })}
+            onClick={zoomReset}
             aria-label={`${zoom}% · ${t('toolbar.zoomReset')}`}
           >
             {zoom}%
           </button>
         </Tooltip>
       )}
-      <Tool label={t('toolbar.zoomIn')} icon={IconPlus} onClick={() => void flow.zoomIn({ duration: 120 })} />
+      <Tool label={t('toolbar.zoomIn')} icon={IconPlus} onClick={zoomIn} />
       <Tool
         label={`${t('toolbar.fit')} (${shortcutLabel(FIT_KEYS.all)})`}
         icon={IconMaximize}
-        onClick={() => void flow.fitView({ ...FIT, duration: 200 })}
+        onClick={fit}
       />
       {hasSelection && (
         <Tool

@@ -29,14 +29,14 @@ beforeEach(() => {
 });
 
 /** Opens a canvas of this size at the window's origin. */
-function open(width = 800, height = 600) {
+function open(width = 800, height = 600, isWhole = false) {
   const canvas = document.createElement('div');
   canvas.dataset['tree'] = 'Main';
   canvas.getBoundingClientRect = () => new DOMRect(0, 0, width, height);
   Object.defineProperty(canvas, 'clientWidth', { value: width, configurable: true });
   document.body.append(canvas);
   onTestFinished(() => canvas.remove());
-  return inFlow(() => useReveal('Main', layout));
+  return inFlow(() => useReveal('Main', layout, isWhole));
 }
 
 describe('a requested block', () => {
@@ -106,5 +106,17 @@ describe('a block that is selected by keys', () => {
     const { view } = open(0, 0);
     act(() => store().select('Main', ['below']));
     expect(view.setViewport).not.toHaveBeenCalled();
+  });
+});
+
+describe('a tree that is seen as a whole', () => {
+  it('is left for a block that is asked for, and not to follow the run or the keys', async () => {
+    const { view } = open(800, 600, true);
+    act(() => store().select('Main', ['below']));
+    const following = { tree: 'Main', node: 'near', count: 7 };
+    act(() => useProjectStore.setState({ revealed: following }));
+    expect(view.setViewport).not.toHaveBeenCalled();
+    act(() => store().reveal('Main', 'near'));
+    await waitFor(() => expect(view.setViewport).toHaveBeenCalledOnce());
   });
 });

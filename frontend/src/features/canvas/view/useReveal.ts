@@ -13,21 +13,26 @@ const canvasOf = (treeId: string) => document.querySelector(`[data-tree="${CSS.e
 
 /**
  * Scrolls a block into view on request. A block that is new or selected by keys is scrolled as far as needed:
- * neither outside the view nor below an element that lies on the canvas (`data-overlay`).
+ * neither outside the view nor below an element that lies on the canvas (`data-overlay`). A tree that is seen as a
+ * whole (`isWhole`) shows it already.
  */
-export function useReveal(treeId: string, layout: Layout): void {
+export function useReveal(treeId: string, layout: Layout, isWhole = false): void {
   const flow = useReactFlow();
   const revealed = useProjectStore((state) => (state.revealed?.tree === treeId ? state.revealed : null));
   const first = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
   const boxes = useRef(layout);
+  const whole = useRef(isWhole);
 
   useEffect(() => {
     boxes.current = layout;
-  }, [layout]);
+    whole.current = isWhole;
+  }, [layout, isWhole]);
 
   useEffect(() => {
     const box = revealed && boxes.current.positions[revealed.node];
     if (!box) return;
+    // What only follows the run does not take the whole of the tree away.
+    if (whole.current && useProjectStore.getState().selection[0] !== revealed.node) return;
     const show = () =>
       void flow.setCenter(box.x + box.width / 2, box.y + box.height / 2, {
         zoom: Math.max(0.9, flow.getZoom()),
@@ -45,7 +50,7 @@ export function useReveal(treeId: string, layout: Layout): void {
   useEffect(() => {
     const box = boxes.current.positions[first ?? ('' as NodeId)];
     const canvas = canvasOf(treeId);
-    if (!box || !canvas || canvas.getBoundingClientRect().width === 0) return;
+    if (whole.current || !box || !canvas || canvas.getBoundingClientRect().width === 0) return;
     const start = flow.flowToScreenPosition({ x: box.x, y: box.y });
     const end = flow.flowToScreenPosition({ x: box.x + box.width, y: box.y + box.height });
     const bounds = canvas.getBoundingClientRect();

@@ -24,10 +24,10 @@ export const READABLE = 0.6;
 const EDGE = 48;
 
 /**
- * Returns the initial view of a tree that does not fit: the root at a readable zoom, near the edge from which
+ * Returns the view of a tree that does not fit: its root at a readable zoom, near the edge from which
  * the tree grows.
  */
-function atRoot(
+export function atRoot(
   { width, height }: { width: number; height: number },
   root: Box,
   isHorizontal: boolean,

@@ -2,7 +2,17 @@ import { waitFor } from '@testing-library/react';
 import { beforeEach, expect, it, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { openProject } from '../../../../harness/testing';
-import { fit, fitSelection, fitSoon, isTreeShown, showsTree, zoomIn, zoomOut, zoomReset } from './views';
+import {
+  fit,
+  fitSelection,
+  fitSoon,
+  isTooLarge,
+  isTreeShown,
+  showsTree,
+  zoomIn,
+  zoomOut,
+  zoomReset,
+} from './views';
 
 const recording = () => ({ zoomIn: vi.fn(), zoomOut: vi.fn(), zoomTo: vi.fn(), fitView: vi.fn() });
 const shows = (tree: string, view: ReturnType<typeof recording>) =>
@@ -71,4 +81,21 @@ it('keeps the newer view of a tree when the older one ends', () => {
   zoomIn();
   expect(newer.zoomIn).toHaveBeenCalledOnce();
   endNewer();
+});
+
+it('lead into a tree that is seen as a whole, and show that instead of all its blocks', () => {
+  const main = recording();
+  const [enter, show] = [vi.fn(), vi.fn()];
+  const ends = [shows('Main', main), isTooLarge('Main', { fit: show, enter })];
+  zoomIn();
+  zoomReset();
+  fit();
+  expect(enter.mock.calls).toEqual([[], [1]]);
+  expect(show).toHaveBeenCalledOnce();
+  ends.push(isTooLarge('Main', { fit: show, enter: null }));
+  zoomIn();
+  expect(main.zoomIn).toHaveBeenCalledOnce();
+  for (const end of ends) end();
+  fit();
+  expect(main.zoomTo).not.toHaveBeenCalled();
 });

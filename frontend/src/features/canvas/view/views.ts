@@ -6,6 +6,15 @@ import { FIT } from './useViewport';
 type View = ReactFlowInstance<BlockNode, TreeEdge>;
 
 const views = new Map<string, View>();
+
+interface Large {
+  readonly fit: () => void;
+  /** The way into a tree that is seen as a whole; null while its blocks are seen. */
+  readonly enter: ((zoom?: number) => void) | null;
+}
+
+/** The trees that are too large to be fitted as blocks. */
+const large = new Map<string, Large>();
 const FAST = { duration: 120 };
 const SLOW = { duration: 200 };
 
@@ -17,7 +26,16 @@ export function showsTree(treeId: string, view: View): () => void {
   };
 }
 
-const inFront = (): View | undefined => views.get(useProjectStore.getState().activeTree ?? '');
+/** Tells the view commands of a tree that is drawn as a whole when it is fitted; returns a function that ends that. */
+export function isTooLarge(treeId: string, tree: Large): () => void {
+  large.set(treeId, tree);
+  return () => {
+    if (large.get(treeId) === tree) large.delete(treeId);
+  };
+}
+
+const activeTree = (): string => useProjectStore.getState().activeTree ?? '';
+const inFront = (): View | undefined => views.get(activeTree());
 
 /** The frame in which the view is fitted by itself. */
 let soon = 0;
@@ -29,10 +47,26 @@ function wishedFor(): View | undefined {
 }
 
 export const isTreeShown = (): boolean => inFront() !== undefined;
-export const zoomIn = (): void => void wishedFor()?.zoomIn(FAST);
+export function zoomIn(): void {
+  const view = wishedFor();
+  const enter = large.get(activeTree())?.enter;
+  if (enter) enter();
+  else void view?.zoomIn(FAST);
+}
 export const zoomOut = (): void => void wishedFor()?.zoomOut(FAST);
-export const zoomReset = (): void => void wishedFor()?.zoomTo(1, FAST);
-export const fit = (): void => void wishedFor()?.fitView({ ...FIT, ...SLOW });
+export function zoomReset(): void {
+  const view = wishedFor();
+  const enter = large.get(activeTree())?.enter;
+  if (enter) enter(1);
+  else void view?.zoomTo(1, FAST);
+}
+
+export function fit(): void {
+  const view = wishedFor();
+  const tree = large.get(activeTree());
+  if (tree) tree.fit();
+  else void view?.fitView({ ...FIT, ...SLOW });
+}
 
 /** Shows the whole tree once React has drawn its new layout. */
 export function fitSoon(): void {

@@ -73,6 +73,9 @@ bench: setup-test ## the benchmarks, side by side with their rivals
 generate: setup-test ## writes the generated sources and reference pages again
 	@$(BIN)/python -m tests.tools.generate
 
+nav2-tables: setup-test ## writes the tables of Nav2's nodes again: SOURCE=FOLDER, a clone of Nav2 with its branches
+	@$(BIN)/python -m tests.tools.nav2_tables $(SOURCE)
+
 lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
 	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
 	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock

@@ -98,3 +98,19 @@ def test_what_is_wrong_with_a_file_of_py_trees_is_said(tmp_path):
     with pytest.raises(CliError):
         import_(str(tmp_path / "none.py"), tmp_path / "made")
     assert not (tmp_path / "made").exists()
+
+
+def test_a_tree_of_nav2_says_its_distribution_and_is_imported_for_another_one(tmp_path, capsys):
+    nodes = '<Sequence><IsPathValid path="{p}"/><DockRobot dock_type="d"/></Sequence>'
+    (tmp_path / "t.xml").write_text(TREE.replace('<Drive speed="1"/>', nodes))
+    import_(str(tmp_path / "t.xml"), tmp_path / "found")
+    assert "ROS distribution: Jazzy\n" in capsys.readouterr().out
+    import_(str(tmp_path / "t.xml"), tmp_path / "made", ros_distro="lyrical")
+    assert "ROS distribution: Lyrical\n" in capsys.readouterr().out
+    assert (tmp_path / "made" / "actions" / "ValidatePath.py").is_file()
+    import_(str(tmp_path / "t.xml"), tmp_path / "old", ros_distro="humble", as_json=True)
+    answer = json.loads(capsys.readouterr().out)
+    assert (answer["ros_distro"], answer["lacks"]) == ("humble", ["DockRobot"])
+    with pytest.raises(CliError) as refused:
+        import_(str(tmp_path / "t.xml"), tmp_path / "no", ros_distro="foxy")
+    assert "--ros-distro is humble, jazzy, kilted, lyrical." in str(refused.value.lines)

@@ -1,4 +1,4 @@
-"""How each run of a session ended, for lists of runs."""
+"""The results of the runs of a session, for lists of runs."""
 
 from __future__ import annotations
 

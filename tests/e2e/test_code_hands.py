@@ -37,7 +37,7 @@ class Old(py_trees.behaviour.Behaviour):
 """
 PIECE = '<Sequence><AlwaysSuccess/><Sleep msec="50"/></Sequence>'
 CHANGES = re.compile(r".*/changes$")
-TEMPLATES = {"Go": "speed", "Sees": "limit", "Ask": "service", "Reach": "x"}
+TEMPLATES = {"Go": "speed", "Drive": "seconds", "Sees": "limit", "Ask": "service", "Reach": "x"}
 
 
 def editor(studio: Studio, path: str) -> Locator:

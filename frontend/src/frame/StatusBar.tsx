@@ -25,6 +25,7 @@ import { useSessionStore } from '@/store/session/store';
 import { useIsBasic } from '@/store/viewMode';
 import classes from './frame.module.css';
 import { showPanel } from '@/workspace/tabs';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 
 export function StatusBar() {
   const { t } = useTranslation('frame');
@@ -149,7 +150,7 @@ function Figures() {
 
 /** The figures of a past moment. */
 function MomentStatus({ moment }: { readonly moment: Moment }) {
-  const { t } = useTranslation('frame');
+  const t = usePlainWords('frame');
   return (
     <span
       className={classes['sim']}
@@ -168,7 +169,7 @@ function MomentStatus({ moment }: { readonly moment: Moment }) {
 
 /** The simulation's numbers, also as data attributes for tests. */
 function SimStatus() {
-  const { t } = useTranslation('frame');
+  const t = usePlainWords('frame');
   const sim = useSessionStore((state) => state.sim);
   const simTime = useSessionStore((state) => state.simTime);
   const speed = useMotion((motion) => motion.speed);

@@ -902,8 +902,8 @@ export interface TickSource {
  * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
  * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
  * `run_number` counts the runs of the session from 1, and stays with a run when others are thrown away.
- * `result` says how the run ended, once it has: by the status of the root, by a fault, or stopped by the user;
- * a run that is stopped after its robot bumped into something ended by that `collision`.
+ * `result` says how the run ended, once it has: by the status of the root, by a fault, or stopped by the
+ * user; one that is stopped after its robot bumped into something ended by that `collision`.
  */
 export interface Segment {
   run: string;

@@ -1,7 +1,7 @@
 import { ActionIcon, Tooltip, type ActionIconProps } from '@mantine/core';
-import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
+import { usePlainWords } from './hooks/usePlainWords';
 import { usePressed } from './hooks/usePressed';
 
 interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
@@ -23,7 +23,7 @@ export function CommandButton({
   testId,
   ...look
 }: CommandButtonProps) {
-  const { t } = useTranslation();
+  const t = usePlainWords('frame');
   const command = useCommandTable((table) => table.commands[id]);
   const { isPressed, handlers } = usePressed();
   if (!command) return null;

@@ -1,4 +1,4 @@
-"""How the runs of a session ended."""
+"""The results of the runs of a session."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_the_first_end_of_a_run_is_its_result(events, result):
 
 
 def recorded_segment(play: Play) -> str:
-    """Lets the recorder tell of the present run; returns the run."""
+    """Sends a segment of the present run as the recorder does; returns the run."""
     run = play.session.recording.run
     segment = messages.Segment(run, 0, 0, 0, 0.0, 1.0, 10)
     number = play.session.children.living["recorder"].number

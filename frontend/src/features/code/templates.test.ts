@@ -2,7 +2,10 @@ import { expect, it } from 'vitest';
 import { ACTION_TEMPLATES, actionSource } from './templates';
 
 it('offers an action first', () => {
-  expect(ACTION_TEMPLATES).toEqual(['action', 'condition', 'service', 'goal', 'control', 'decorator']);
+  expect(ACTION_TEMPLATES).toEqual([
+    ...['action', 'drive', 'condition', 'service', 'goal'],
+    ...['control', 'decorator'],
+  ]);
 });
 
 it.each(ACTION_TEMPLATES)('names the class of the template “%s” after its file', (kind) => {

@@ -2,11 +2,12 @@ import action from './templates/action.py?raw';
 import condition from './templates/condition.py?raw';
 import control from './templates/control.py?raw';
 import decorator from './templates/decorator.py?raw';
+import drive from './templates/drive.py?raw';
 import goal from './templates/goal.py?raw';
 import service from './templates/service.py?raw';
 
 /** The templates of new actions, in the order of the dialogue. */
-const TEMPLATES = { action, condition, service, goal, control, decorator } as const;
+const TEMPLATES = { action, drive, condition, service, goal, control, decorator } as const;
 
 export type ActionTemplate = keyof typeof TEMPLATES;
 

@@ -1,11 +1,11 @@
 import { NativeSelect, NumberInput, TextInput } from '@mantine/core';
 import { useState } from 'react';
-import { useTranslation } from 'react-i18next';
 import type { BreakpointMoment, ResultName, TreeNode } from '@/generated/messages';
 import { MOMENTS, RESULTS, type BlockBreakpoint } from '@/model/breakpoints';
 import { changeBreakpoint } from '@/store/debug/breakpoints';
 import { instanceOf, isOwnTree, nodesOf } from '@/store/debug/debugger';
 import { useSessionStore } from '@/store/session/store';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 import classes from './debug.module.css';
 
 /** The moments at which another program can be held. */
@@ -13,7 +13,7 @@ const OF_OTHERS: readonly BreakpointMoment[] = ['before', 'after'];
 
 /** The fields of a breakpoint: when it holds the tree, and under which conditions. */
 export function BreakpointFields({ breakpoint: each }: { readonly breakpoint: BlockBreakpoint }) {
-  const { t } = useTranslation('debug');
+  const t = usePlainWords('debug');
   const tree = useSessionStore((state) => state.tree);
   const isOwn = useSessionStore(isOwnTree);
   const nodes = nodesOf({ tree }, each.tree_id, each.node_id);
@@ -89,7 +89,7 @@ interface InstanceProps {
 
 /** The choice between all instances of a shared tree and one. */
 function Instance({ nodes, tree, instance, onChange }: InstanceProps) {
-  const { t } = useTranslation('debug');
+  const t = usePlainWords('debug');
   const choices = nodes.map((node) => ({ value: JSON.stringify(instanceOf(tree, node)), label: node.path }));
   return (
     <NativeSelect

@@ -1,11 +1,11 @@
-import { useTranslation } from 'react-i18next';
 import type { Held } from '@/generated/messages';
 import type { BlockBreakpoint } from '@/model/breakpoints';
 import type { ForcedMark } from '@/store/debug/marks';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 
 /** Returns the words for a stop: what happens at the node, and why the tree is held there. */
 export function useHeldWords(): (held: Held) => string {
-  const { t } = useTranslation('debug');
+  const t = usePlainWords('debug');
   return (held) => {
     const event = t(`event.${held.event}`, { status: held.status ?? '', decided: held.decided });
     const cause = held.cause === 'condition' ? held.why : t(`cause.${held.cause}`);
@@ -15,7 +15,7 @@ export function useHeldWords(): (held: Held) => string {
 
 /** Returns the words for the moment of a breakpoint, with its condition, hits and log line. */
 export function useMomentWords(): (each: BlockBreakpoint) => string {
-  const { t } = useTranslation('debug');
+  const t = usePlainWords('debug');
   return (each) =>
     [
       each.when === 'returns' ? t('whenReturns', { status: each.status ?? '' }) : t(`when.${each.when}`),
@@ -29,7 +29,7 @@ export function useMomentWords(): (each: BlockBreakpoint) => string {
 
 /** Returns the words for what is forced on a block. */
 export function useForcedWords(): (mark: ForcedMark) => string {
-  const { t } = useTranslation('debug');
+  const t = usePlainWords('debug');
   return ({ alone, status, once, after }) =>
     alone
       ? t('forced.alone')

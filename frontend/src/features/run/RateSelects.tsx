@@ -1,11 +1,11 @@
 import { Menu, Tooltip, UnstyledButton } from '@mantine/core';
 import { IconCheck, IconChevronDown } from '@tabler/icons-react';
 import { useState } from 'react';
-import { useTranslation } from 'react-i18next';
 import { setRunTime, setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 import { DEFAULT_TICK_HZ, RUN_TIMES, SPEEDS, TICK_RATES } from './rates';
 import classes from './run.module.css';
 
@@ -66,7 +66,7 @@ function Choices({ value, options, format, onChoose }: ChoicesProps) {
 
 /** Returns the menus of the tick rate and of the speed of simulated time. */
 function useRates(): readonly RateSelectProps[] {
-  const { t } = useTranslation('run');
+  const t = usePlainWords('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
   const speed = useSessionStore((state) => state.speed);
   const isDisabled = useRunStore((state) => state.runBlocker !== null);
@@ -103,7 +103,7 @@ function useTime() {
 }
 
 function TimeChoices() {
-  const { t } = useTranslation('run');
+  const t = usePlainWords('run');
   const { time } = useTime();
   return (
     <Menu.RadioGroup value={time} onChange={(chosen) => setRunTime(chosen === 'exact' ? 'exact' : 'live')}>
@@ -118,7 +118,7 @@ function TimeChoices() {
 
 /** Whether the time of the next run waits for the tree, as a chip that opens the choice. */
 export function TimeChip() {
-  const { t } = useTranslation('run');
+  const t = usePlainWords('run');
   const { time, isDisabled } = useTime();
   const [isOpen, setOpen] = useState(false);
   const label = `${t('time')}: ${t(`times.${time}`)}`;
@@ -148,7 +148,7 @@ export function TimeChip() {
 
 /** The time of the next run as a menu, for windows that are too narrow for its chip. */
 export function TimeMenu() {
-  const { t } = useTranslation('run');
+  const t = usePlainWords('run');
   const { time, isDisabled } = useTime();
   return (
     <Menu.Sub>

@@ -192,5 +192,5 @@ it('has Run, Pause and Stop in the basic page, a step while paused, and the rest
   expect(await screen.findByRole('menuitem', { name: /End the session/ })).toBeInTheDocument();
   await user.keyboard('{Escape}');
   act(() => useSessionStore.setState({ executor: 'paused' }));
-  expect(names()).toContain('Step one tick');
+  expect(names()).toContain('One step');
 });

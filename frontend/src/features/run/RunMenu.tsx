@@ -1,10 +1,10 @@
 import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconCheck, IconChevronDown } from '@tabler/icons-react';
 import { useState } from 'react';
-import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 import { RateMenus, TimeMenu } from './RateSelects';
 import { useFollowing } from './following';
 
@@ -25,7 +25,7 @@ const COMMANDS = [
 
 /** The menu of rare commands, and of options for the statuses on blocks. */
 export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { t } = useTranslation('run');
+  const t = usePlainWords('run');
   const table = useCommandTable((state) => state.commands);
   const isFollowing = useFollowing((state) => state.isOn);
   const hz = useStatusRate((state) => state.hz);

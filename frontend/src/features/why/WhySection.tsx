@@ -1,6 +1,5 @@
 import { NativeSelect } from '@mantine/core';
 import { useEffect, useMemo, useRef, useState } from 'react';
-import { useTranslation } from 'react-i18next';
 import type { TreeNode } from '@/generated/messages';
 import { explain, type Step } from '@/model/why/explain';
 import type { Reason } from '@/model/why/verdict';
@@ -9,6 +8,7 @@ import { useIsBack } from '@/store/moment/store';
 import { useShownTick, useWhy } from '@/store/moment/why';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 import { nameOf, question, sentence, statusOf } from './sentence';
 import classes from './why.module.css';
 
@@ -19,7 +19,7 @@ interface WhySectionProps {
 
 /** Why a block was ticked in the shown tick or was not: the path from the root, with the reason at each parent. */
 export function WhySection({ tree, node }: WhySectionProps) {
-  const { t } = useTranslation('why');
+  const t = usePlainWords('why');
   const nodes = useShownSession((state) => state.tree);
   const isOpen = useWhy((state) => state.isOpen);
   const asked = useWhy((state) => state.asked);
@@ -54,7 +54,7 @@ export function WhySection({ tree, node }: WhySectionProps) {
 }
 
 function Answer({ instances }: { readonly instances: readonly TreeNode[] }) {
-  const { t } = useTranslation('why');
+  const t = usePlainWords('why');
   const [chosen, setChosen] = useState(0);
   const shown = useShownTick(true);
   const hold = useSessionStore(({ held, heldInPython }) => held ?? heldInPython);
@@ -116,7 +116,7 @@ interface StepProps {
 }
 
 function StepLine({ step, nodes, isForced }: StepProps) {
-  const { t } = useTranslation('why');
+  const t = usePlainWords('why');
   const { uid, parent, verdict } = step;
   const status = statusOf(verdict);
   return (
@@ -147,7 +147,7 @@ interface OutcomeProps {
 
 /** Why the node itself has its result: the child that decided it, or its own reason not to tick one. */
 function OutcomeLine({ reason, uid, nodes }: OutcomeProps) {
-  const { t } = useTranslation('why');
+  const t = usePlainWords('why');
   const { code, by } = reason;
   const child = nodes.find((node) => node.uid === by) ?? nodes.find(({ parent }) => parent === uid);
   const words =

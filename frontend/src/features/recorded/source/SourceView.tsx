@@ -7,6 +7,7 @@ import { useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import { useTickSource } from '@/store/session/trace/tickSource';
+import { usePlainWords } from '@/ui/hooks/usePlainWords';
 import { CallValues } from './CallValues';
 import { RanCode } from './RanCode';
 import classes from './source.module.css';
@@ -18,7 +19,7 @@ interface SourceViewProps {
 
 /** The code that the actions ran in the shown tick, got by making the run again up to there. */
 export function SourceView({ uid }: SourceViewProps) {
-  const { t } = useTranslation('axis');
+  const t = usePlainWords('axis');
   const job = useTickSource((state) => state.job);
   const tickT = useMoment((state) => state.shown?.tickT);
   useSource();

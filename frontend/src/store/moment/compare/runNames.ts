@@ -20,7 +20,7 @@ export function nameOf(run: string, session: NamedRuns): string {
   return branch && parent > 0 ? text('axis:run.branch', { name, parent, t: branch.from_t.toFixed(1) }) : name;
 }
 
-/** Returns the name of a run and its result, in words and with a mark; a run that goes on has none. */
+/** Returns the name of a run and its result, in words and with a mark; a run that continues has none. */
 export function labelOf(run: string, session: NamedRuns): string {
   const name = nameOf(run, session);
   const result = session.segments.findLast((each) => each.run === run)?.result;

@@ -7,6 +7,7 @@ import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
 import { evaluationNames, isEvaluationName } from '@/model/evaluation/files';
 import { workflowOf } from '@/model/evaluation/workflow';
+import { DownloadLink } from './DownloadLink';
 import classes from './export.module.css';
 import type { Theme } from './palette';
 import { pngOf, saveAs, svgOf } from './picture';
@@ -48,46 +49,22 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
           {t('others')}
         </Text>
         <Group gap="sm">
-          <Button
-            component="a"
-            variant="default"
-            href={api.exportUrl(projectId)}
-            download
-            data-testid="download-project"
-            leftSection={<IconFileZip size={16} />}
-          >
+          <DownloadLink href={api.exportUrl(projectId)} icon={IconFileZip} testId="download-project">
             {t('project')}
-          </Button>
-          <Button
-            component="a"
-            variant="default"
-            href={api.xmlUrl(projectId, false)}
-            download
-            data-testid="download-xml"
-            leftSection={<IconFileTypeXml size={16} />}
-          >
+          </DownloadLink>
+          <DownloadLink href={api.xmlUrl(projectId, false)} icon={IconFileTypeXml} testId="download-xml">
             {t('xml')}
-          </Button>
-          <Button
-            component="a"
-            variant="default"
+          </DownloadLink>
+          <DownloadLink
             href={api.xmlUrl(projectId, true)}
-            download
-            data-testid="download-self-contained"
-            leftSection={<IconFileTypeXml size={16} />}
+            icon={IconFileTypeXml}
+            testId="download-self-contained"
           >
             {t('selfContained')}
-          </Button>
-          <Button
-            component="a"
-            variant="default"
-            href={api.cppUrl(projectId)}
-            download
-            data-testid="download-cpp"
-            leftSection={<IconBrandCpp size={16} />}
-          >
+          </DownloadLink>
+          <DownloadLink href={api.cppUrl(projectId)} icon={IconBrandCpp} testId="download-cpp">
             {t('cpp')}
-          </Button>
+          </DownloadLink>
         </Group>
         <Text size="sm" fw={600} mt="xs">
           {t('picture')}
@@ -124,26 +101,12 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
         <details data-testid="more-downloads">
           <summary className={classes['more']}>{t('more')}</summary>
           <Group gap="sm" mt="xs">
-            <Button
-              component="a"
-              variant="default"
-              href={api.modelsUrl(projectId)}
-              download
-              data-testid="download-models"
-              leftSection={<IconFileTypeXml size={16} />}
-            >
+            <DownloadLink href={api.modelsUrl(projectId)} icon={IconFileTypeXml} testId="download-models">
               {t('models')}
-            </Button>
-            <Button
-              component="a"
-              variant="default"
-              href={api.schemaUrl(projectId)}
-              download
-              data-testid="download-schema"
-              leftSection={<IconFileTypeXml size={16} />}
-            >
+            </DownloadLink>
+            <DownloadLink href={api.schemaUrl(projectId)} icon={IconFileTypeXml} testId="download-schema">
               {t('schema')}
-            </Button>
+            </DownloadLink>
             <Button
               variant="default"
               data-testid="download-workflow"

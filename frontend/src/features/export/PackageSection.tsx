@@ -21,6 +21,7 @@ import type { Diagnostic } from '@/api/types';
 import { errorsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { findingText } from '@/ui/findingText';
+import { DownloadLink } from './DownloadLink';
 import classes from './export.module.css';
 import { dependenciesOf, PACKAGE_NAME } from './manifest';
 
@@ -137,15 +138,14 @@ export function PackageSection({ projectId }: PackageSectionProps) {
             error={isValid ? null : t('badName')}
             onChange={(event) => setTyped(event.currentTarget.value)}
           />
-          <Button
-            component="a"
+          <DownloadLink
             href={api.packageUrl(projectId, isValid ? typed.trim() : '')}
-            download
-            data-testid="download-package"
-            leftSection={<IconDownload size={16} />}
+            icon={IconDownload}
+            testId="download-package"
+            variant="filled"
           >
             {t('downloadPackage')}
-          </Button>
+          </DownloadLink>
         </Group>
         {data ? (
           <>

@@ -6,6 +6,7 @@ import { useRunStore } from '@/store/run/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { feedLastTick } from '@/store/session/trace/lastTick';
+import { setViewMode } from '@/store/viewMode';
 import { openDiagram } from '../../../harness/canvas';
 import { atPresent, useMoment } from './store';
 import { askWhy, useShownTick, useWhy } from './why';
@@ -82,4 +83,12 @@ it('asking opens the answer, and asks for the focus each time', () => {
   askWhy();
   askWhy();
   expect(useWhy.getState()).toEqual({ isOpen: true, asked: asked + 2 });
+});
+
+it('opens with the basic page, also when it was closed where everything is shown', () => {
+  setViewMode('full');
+  useWhy.setState({ isOpen: false });
+  setViewMode('basic');
+  expect(useWhy.getState().isOpen).toBe(true);
+  setViewMode('full');
 });

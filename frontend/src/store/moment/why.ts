@@ -17,6 +17,11 @@ export const useWhy = create<{ readonly isOpen: boolean; readonly asked: number 
   asked: 0,
 }));
 
+// *Show less* leads to the basic page, too, not only a reload of it.
+useViewMode.subscribe(({ mode }, before) => {
+  if (mode === 'basic' && before.mode !== 'basic') useWhy.setState({ isOpen: true });
+});
+
 /** Opens the answer for the selected block, and moves the focus there. */
 export const askWhy = (): void => useWhy.setState(({ asked }) => ({ isOpen: true, asked: asked + 1 }));
 

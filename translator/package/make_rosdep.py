@@ -39,6 +39,8 @@ KNOWN = {
     "skimage": "python3-skimage",
     "sklearn": "python3-sklearn",
     "socketio": "python3-socketio",
+    "PyKDL": "python_orocos_kdl_vendor",
+    "tf2_ros": "tf2_ros_py",  # the package tf2_ros is C++
     "usb": "python3-usb",
     "websocket": "python3-websocket",
     "yaml": "python3-yaml",

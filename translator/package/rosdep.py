@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from dataclasses import dataclass
 from functools import cache
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from translator.action import ActionModel
 
 OWN = {"tree_gardener", "tree_tools", "actions"}
+NAV2 = "tree_gardener.nav2."
+_NAMED = re.compile(r'"([a-z0-9_]+_msgs)["/]|^\s*(?:from|import) (tf2_\w+)', re.MULTILINE)
+_USED = re.compile(rf"^from {NAV2}(\w+) import", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +56,8 @@ def dependencies(
     found: list[Diagnostic] = []
     told: set[str] = set()
     for action in actions:
+        if any(item.module.startswith(NAV2) for item in action.imports):
+            keys |= _named_by(action.source)
         for item in action.imports:
             top = item.module.partition(".")[0]
             if top in sys.stdlib_module_names or top in OWN or top in own_modules:
@@ -64,3 +70,16 @@ def dependencies(
                 place = Place(action.path, line=item.line, column=1)
                 found.append(diagnostic("BT0910", place, module=top))
     return sorted(keys), found
+
+
+def _named_by(source: str) -> set[str]:
+    """Returns the keys of packages that a node of Nav2 imports by name, itself or in the engine's modules."""
+    names = {name or module for name, module in _NAMED.findall(source)}
+    keys = {key for name in names if (key := rosdep_table().key_of(name)) is not None}
+    return keys.union(*(_named_in_engine(module) for module in _USED.findall(source)))
+
+
+@cache
+def _named_in_engine(module: str) -> frozenset[str]:
+    file = resources.files("tree_gardener").joinpath("nav2", f"{module}.py")
+    return frozenset(_named_by(file.read_text(encoding="utf-8")) if file.is_file() else ())

@@ -37,6 +37,7 @@ BENCHMARKS = (
     "two_servers",
     "opening",
     "browser",
+    "whole",
     "evaluate_panel",
     "axis",
     "marks",

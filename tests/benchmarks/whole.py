@@ -1,8 +1,8 @@
 """The whole of a tree of 601 blocks on the canvas while it runs at 20 Hz: `python -m tests.benchmarks whole`.
 
-At 1440 x 900. A frame is all that the main thread does from one picture to the next: messages of the session,
-script, style, layout and paint, in its own processor time. Rasterising is left out: without a GPU the processor does
-it, in other threads.
+At 1440 x 900. A frame is all that the main thread does from one picture to the next: messages of the
+session, script, style, layout and paint, in its own processor time. Rasterising is left out: without a GPU
+the processor does it, in other threads.
 """
 
 from __future__ import annotations

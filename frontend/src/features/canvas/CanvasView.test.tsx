@@ -372,6 +372,8 @@ describe('a tree that does not fit', () => {
 
   it('is drawn as a whole when it is seen from far, and Enter goes to the selected block', async () => {
     const { store: flow } = open(large);
+    // It opens at its root, where it can be read.
+    await waitFor(() => expect(flow.getState().transform[2]).toBe(0.7));
     act(() => flow.setState({ transform: [0, 0, 0.3] }));
     expect(canvas()).not.toHaveAttribute('data-whole');
     act(() => flow.setState({ transform: [0, 0, 0.2] }));

@@ -1,6 +1,5 @@
 import { IconAlertTriangle, IconSearch } from '@tabler/icons-react';
 import { memo, type CSSProperties } from 'react';
-import { useTranslation } from 'react-i18next';
 import type { ChangeKind } from '@/model/difference/changes';
 import { displayName, type NodeId } from '@/model/diagram';
 import type { Box } from '@/model/layout';
@@ -33,7 +32,6 @@ const place = ({ x, y, width, height }: Box, within: { x: number; y: number } = 
 
 /** A block of the whole tree with its name, around its children's boxes or around all below it as one piece. */
 export const PartBox = memo(function PartBox({ part, fact, facts, mark, hits, isLeaf }: Props) {
-  const { t } = useTranslation('canvas');
   const { id, box, title, level, piece } = part;
   const { node, family, hasError, isSelected } = fact;
   const count = piece?.blocks.length ?? 0;
@@ -47,7 +45,6 @@ export const PartBox = memo(function PartBox({ part, fact, facts, mark, hits, is
       role="treeitem"
       aria-level={level}
       aria-selected={isSelected}
-      aria-label={piece ? t('whole.piece', { name, count }) : name}
       className={`${classes['part']} ${isLeaf ? classes['leaf'] : ''}`}
       data-part={id}
       data-family={family ?? 'unknown'}

@@ -25,7 +25,7 @@ const open = (count: number) => {
   });
 };
 
-it('draws a tree as a whole that does not fit where its blocks can be told apart, from a zoom on', () => {
+it('draws a tree as a whole that does not fit where its blocks can be distinguished, from a zoom on', () => {
   const { used, store } = open(200);
   expect(used().isWhole).toBe(false);
   act(() => store.setState({ transform: [0, 0, 0.24] }));

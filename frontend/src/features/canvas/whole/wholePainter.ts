@@ -39,7 +39,7 @@ export interface Picture {
   readonly colorOf: (token: string) => string;
 }
 
-/** A cell is drawn a little smaller than it is, so that neighbours are told apart. */
+/** A cell is drawn a little smaller than it is, so that neighbours are distinguished. */
 const BETWEEN = 0.16;
 /** Cells without a status are pale: what runs is seen first. */
 const IDLE_ALPHA = 0.42;

@@ -13,7 +13,7 @@ from executor.session.debugger.python import HELD_IN_PYTHON, HELD_IN_PYTHON_HINT
 from executor.session.exact import branching
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import ANSWER_S
-from executor.session.recording import FlagRefused
+from executor.session.runs.recording import FlagRefused
 from executor.session.steps import RESET_TIMEOUT_S
 from executor.session.waits import NOT_ANSWERING
 

@@ -53,7 +53,7 @@ from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
 from executor.session.output import Output
 from executor.session.questions import Questions, answer_late
-from executor.session.recording import Recording
+from executor.session.runs.recording import Recording
 from executor.session.stage import About, LastRun
 from executor.session.waits import StepFailed, Wait
 

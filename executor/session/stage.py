@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from executor.session.mirror import Mirror
     from executor.session.output import Output
     from executor.session.questions import Questions
-    from executor.session.recording import Recording
+    from executor.session.runs.recording import Recording
     from executor.session.waits import Step
 
 __all__ = ["About", "LastRun", "Stage"]

@@ -14,7 +14,7 @@ import pytest
 
 from executor.session.hangs.vitals import FAULT_AFTER_S
 from executor.session.ladder import State
-from executor.session.recording import MOST_LOST
+from executor.session.runs.recording import MOST_LOST
 from tests.budget import count
 from tests.executor.hanging import ROOT, hanging_session, own_hanging_session
 from tests.executor.session_client import SessionClient, manager_process, run_data

@@ -19,7 +19,7 @@ from executor.adapter_messages import AdapterText, StartAdapter
 from executor.session.debugger.dap import CAPABILITIES, OWN_SEQ, Refused, checked, made_by_hand, named
 from executor.session.debugger.lines import with_one_condition
 from executor.session.ladder import HAS_APPLICATION, State
-from executor.session.recording import FlagRefused
+from executor.session.runs.recording import FlagRefused
 
 if TYPE_CHECKING:
     from executor.session.child import Child

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from executor.messages import Flag, FlagSet
-from executor.session.recording import MOST_FLAGS, FlagRefused, flag_of
+from executor.session.runs.recording import MOST_FLAGS, FlagRefused, flag_of
 
 OLD = FlagSet("r", "f1", 2.0, "old", "ada")
 

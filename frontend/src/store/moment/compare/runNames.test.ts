@@ -25,7 +25,7 @@ it.each([
   ['success', 'Run 1 · ✓ SUCCESS'],
   ['failure', 'Run 1 · ✗ FAILURE'],
   ['fault', 'Run 1 · ⚠ ended by a fault'],
-  ['collision', 'Run 1 · ✗ ended by a collision'],
+  ['collision', 'Run 1 · ✗ stopped after a collision'],
   ['stopped', 'Run 1 · ■ stopped'],
   [null, 'Run 1'],
 ] as const)('says how a run ended: %s', (result, label) => {

@@ -12,7 +12,7 @@ from msgspec import structs, to_builtins
 
 from executor import child_messages, messages, recorder_messages
 from executor.session.questions import answer, answer_late
-from executor.session.run_results import RunResults
+from executor.session.runs.results import RunResults
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

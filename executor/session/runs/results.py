@@ -20,7 +20,7 @@ _COLLISION: Final = " bumped into "
 class RunResults:
     """Hears the events of a session, and tells the results of its runs.
 
-    A run that the user stopped after its robot had bumped into something ended by the collision.
+    The result of a run that was stopped after its robot had bumped into something says so.
     """
 
     def __init__(self) -> None:

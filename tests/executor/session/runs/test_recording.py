@@ -19,7 +19,7 @@ from executor.session.events import (
     Unpacked,
 )
 from executor.session.ladder import State
-from executor.session.recording import MOST_LOST, SILENT_S
+from executor.session.runs.recording import MOST_LOST, SILENT_S
 from tests.executor.session.play import APPLICATION, Play
 
 

@@ -7,7 +7,7 @@ import pytest
 from executor import messages, recorder_messages
 from executor.session.events import ChildSaid, RecordingWanted
 from executor.session.ladder import State
-from executor.session.run_results import RunResults
+from executor.session.runs.results import RunResults
 from tests.executor.session.play import Play
 
 BUMP = messages.Log("world", "warning", "scout bumped into the crate")

@@ -71,7 +71,7 @@ def it_is_opened_from_the_start_page_beside_another_one(studio: Studio) -> None:
     page, runs = studio.page, studio.at("my-runs")
     studio.open()
     row = runs.get_by_role("listitem")
-    expect(row).to_contain_text("Running")
+    expect(row).to_contain_text("No result")
     expect(row.locator("img")).to_have_js_property("complete", True)
     assert row.locator("img").evaluate("image => image.naturalWidth") > 50
     for scheme in ("dark", "light"):

@@ -163,6 +163,8 @@ class LockstepRun:
         self._stack.append(self.world.close)
         self._join_ros()
         self.tree = self._make_tree(self._project)  # making the world may have drawn ports of it
+        if self._ros.navigation is not None:  # as in a session, which is paused until its tree is run
+            self._ros.navigation.poll(is_paused=True)
         self._recorder = self._make_recorder(recording)
         if self._options.profiles:
             self._profile = RunProfile(self.tree, None if self._recorder is None else self._recorder.profiled)

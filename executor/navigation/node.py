@@ -254,7 +254,8 @@ class Navigation:
             for index, pose in enumerate(request.path.poses)
             if not space.allows(*pose_of(pose, at.pose, at.odometry)[:2])
         ]
-        response.is_valid = not response.invalid_pose_indices
+        # As in Nav2, an empty path is not valid.
+        response.is_valid = bool(request.path.poses) and not response.invalid_pose_indices
         return response
 
     def _cost(self, request: Any, response: Any) -> Any:

@@ -5,6 +5,7 @@ Where Nav2 blocks its tree while a server is missing or answers, these nodes are
 
 from typing import Any, ClassVar, Final
 
+from tree_gardener.errors import PortError
 from tree_gardener.nav2.reading import give
 from tree_gardener.ports import get_input, node_of
 from tree_gardener.ros_nodes.action import GOAL_REJECTED_BY_SERVER, INVALID_GOAL, RosActionNode
@@ -31,11 +32,22 @@ class _Leaf:
     def read(self, name: str, otherwise: Any = None) -> Any:
         """Returns the value of a port, or its default; `otherwise` if this node's version has no such port.
 
+        A text whose entry has no value yet is its default, or empty, as in Nav2: a tree may name a planner
+        or a controller that no selector has chosen.
+
         Raises:
             PortError: the port has neither.
         """
-        is_there = otherwise is None or name in getattr(self, "INPUT_PORTS", ())
-        return get_input(self, name) if is_there else otherwise
+        declared = getattr(self, "INPUT_PORTS", {})
+        if otherwise is not None and name not in declared:
+            return otherwise
+        try:
+            return get_input(self, name)
+        except PortError:
+            port = declared.get(name)
+            if port is None or port.type is not str or not self.is_given(name):
+                raise
+            return port.default if isinstance(port.default, str) else ""
 
     def is_given(self, name: str) -> bool:
         """Returns whether the tree sets a port."""

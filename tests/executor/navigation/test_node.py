@@ -173,6 +173,7 @@ def test_a_path_is_found_checked_and_followed(drive: Drive) -> None:
     through_walls = path_message([(-3.0, 1.2), (-3.9, 1.9)], None, 0.0)
     checked = drive.call(IsPathValid, "/is_path_valid", IsPathValid.Request(path=through_walls))
     assert (checked.is_valid, list(checked.invalid_pose_indices)) == (False, [1])
+    assert not drive.call(IsPathValid, "/is_path_valid", IsPathValid.Request()).is_valid
     follower = drive.client(FollowPath, "/follow_path")
     assert drive.result(drive.send(follower, FollowPath.Goal(path=found.path))).status == SUCCEEDED
     assert math.dist(drive.world.robots[0].pose[:2], (-3.0, 1.2)) < 0.25

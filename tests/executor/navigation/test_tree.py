@@ -88,3 +88,10 @@ def test_where_the_way_is_blocked_it_recovers_and_arrives_later() -> None:
     assert distance_to_the_kitchen(report) < 0.3
     recoveries = {node.path.rpartition("/")[2].partition(":")[0]: node.ticks for node in report.nodes}
     assert any(ticks > 0 for name, ticks in recoveries.items() if name in {"Spin", "Wait", "BackUp"})
+
+
+def test_the_pose_of_the_robot_is_known_at_the_first_tick() -> None:
+    body = '<Sequence><GetCurrentPose current_pose="{at}"/><Wait wait_duration="0.1"/></Sequence>'
+    project = from_xml(f'<root BTCPP_format="4"><BehaviorTree ID="Main">{body}</BehaviorTree></root>')
+    report = run_lockstep(project, LockstepOptions(universe="house", duration_s=5.0, tick_hz=20.0))
+    assert (report.root_status, report.errors) == ("SUCCESS", [])

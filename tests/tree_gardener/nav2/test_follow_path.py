@@ -30,6 +30,13 @@ def test_the_path_is_followed_by_the_chosen_plugins(ros: Graph) -> None:
     assert goal.path == path_to(1.0)
 
 
+def test_a_controller_that_nothing_has_chosen_is_left_to_the_server(ros: Graph) -> None:
+    server = Actions(ros, "FollowPath", FollowPath.ACTION_NAME)
+    ros.load("<FollowPath path='{path}' controller_id='{chosen}'/>", path=path_to(1.0))
+    assert ros.run() is Status.SUCCESS
+    assert [goal.controller_id for goal in server.goals] == [""]
+
+
 def test_a_new_path_replaces_the_one_under_way_without_a_stop(ros: Graph) -> None:
     server = Actions(ros, "FollowPath", FollowPath.ACTION_NAME, outcome="wait")
     ros.load("<FollowPath path='{path}'/>", path=path_to(1.0))

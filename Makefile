@@ -76,6 +76,9 @@ generate: setup-test ## writes the generated sources and reference pages again
 nav2-tables: setup-test ## writes the tables of Nav2's nodes again: SOURCE=FOLDER, a clone of Nav2 with its branches
 	@$(BIN)/python -m tests.tools.nav2_tables $(SOURCE)
 
+nav2-trees: setup-test ## drives with each tree that Nav2 ships and writes the page of the outcomes: SOURCE as above
+	@$(BIN)/python -m tests.tools.nav2_trees $(SOURCE)
+
 lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
 	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
 	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock

@@ -139,18 +139,22 @@ def tables_in(clone: Path) -> dict[Distribution, str]:
     """
     found: dict[Distribution, dict[str, Any]] = {}
     for name in DISTRIBUTIONS:
-        branch = next(
-            (each for each in (name, f"origin/{name}") if _git(clone, "rev-parse", "-q", "--verify", each)),
-            "",
-        )
-        commit, model = _git(clone, "rev-parse", branch).strip(), _git(clone, "show", f"{branch}:{MODEL}")
+        branch = branch_in(clone, name)
+        commit, model = git(clone, "rev-parse", branch).strip(), git(clone, "show", f"{branch}:{MODEL}")
         if not branch or not model:
             raise ValueError(f"{clone} has no {MODEL} in the branch {name}: clone Nav2 with all its branches")
         found[name] = table_of(model, name, commit)
     return {name: table_text(table) for name, table in filled(found).items()}
 
 
-def _git(clone: Path, *arguments: str) -> str:
+def branch_in(clone: Path, name: Distribution) -> str:
+    """Returns the branch of a distribution in a clone, its own or that of its origin; "" if there is none."""
+    places = (name, f"origin/{name}")
+    return next((each for each in places if git(clone, "rev-parse", "-q", "--verify", each)), "")
+
+
+def git(clone: Path, *arguments: str) -> str:
+    """Returns what git writes; "" if it fails."""
     command = ["git", "-C", str(clone), *arguments]
     done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     return done.stdout if done.returncode == 0 else ""

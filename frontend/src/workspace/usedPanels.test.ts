@@ -1,4 +1,4 @@
-import type { TabSetNode} from 'flexlayout-react';
+import type { TabSetNode } from 'flexlayout-react';
 import { Actions, type Model } from 'flexlayout-react';
 import { afterEach, beforeEach, expect, it } from 'vitest';
 import { toggleBreakpoint, useBreakpoints } from '@/store/debug/breakpoints';

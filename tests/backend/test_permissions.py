@@ -70,6 +70,7 @@ POLICY = {
     ("post", f"{P}/duplicate"): COPY,
     ("post", f"{P}/changes"): WRITE,
     ("post", f"{P}/check"): CHECK,
+    ("post", f"{P}/distribution"): CHECK,
     ("post", f"{P}/test"): TESTED,
     ("get", f"{P}/test-with-python"): RUN,
     ("delete", f"{P}/test-with-python"): (401, 403, 404, 404, 404, 404),  # there is nothing to end
@@ -186,6 +187,7 @@ BODIES = {
     ("patch", P): {"base_revision": 1, "description": "new"},
     ("post", f"{P}/changes"): {"files": [{"path": "new.txt", "base_revision": 0, "content": "x"}]},
     ("post", f"{P}/check"): {"files": []},
+    ("post", f"{P}/distribution"): {"ros_distro": "kilted", "files": []},
     ("post", f"{P}/test"): {"files": []},
     ("post", f"{P}/test-with-python"): {"files": []},
     ("post", f"{P}/duplicate"): {},

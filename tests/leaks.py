@@ -80,7 +80,8 @@ class Leaks:
         self._processes: dict[Process, str] = {}
         self._files: dict[Path, str] = {}
         self._shared_before = set(_names(_SHARED_MEMORY))
-        self._shared: dict[Path, str] = {}
+        # Names are used again: the ports of Fast DDS, also by processes that a later test kills.
+        self._shared: dict[tuple[Path, int], str] = {}
         self._own_groups = _groups_of(os.getpid())
         self._groups_before = {each for own in self._own_groups for each in _below(own)}
         self._groups: dict[Path, str] = {}
@@ -92,10 +93,11 @@ class Leaks:
         for name in set(_names(self.folder)) - _KEPT_BY_OTHERS:
             self._files.setdefault(self.folder / name, file)
         ours = [process for process in self._processes if _is_alive(process)]
-        new = {_SHARED_MEMORY / name for name in _names(_SHARED_MEMORY) if name not in self._shared_before}
-        if new - self._shared.keys():
+        names = set(_names(_SHARED_MEMORY)) - self._shared_before
+        new = {(path := _SHARED_MEMORY / name, _number(path)) for name in names} - self._shared.keys()
+        if new:
             mapped = _mapped([os.getpid(), *(process.pid for process in ours)])
-            self._shared |= dict.fromkeys(new & mapped - self._shared.keys(), file)
+            self._shared |= {each: file for each in new if each[0] in mapped}
         for process in ours:
             for group in _groups_of(process.pid) - self._groups_before - self._own_groups:
                 if any(group.is_relative_to(own) for own in self._own_groups):
@@ -117,8 +119,8 @@ class Leaks:
             *(Leak("a temporary file", str(path), first) for path, first in self._files.items() if _is(path)),
             *(
                 Leak("shared memory", str(path), first)
-                for path, first in self._shared.items()
-                if path.exists() and path not in used
+                for (path, number), first in self._shared.items()
+                if path not in used and _number(path) == number
             ),
             *(Leak("a control group", str(path), first) for path, first in self._groups.items() if _is(path)),
             *(
@@ -254,6 +256,14 @@ def _described(process: Process) -> str:
     with contextlib.suppress(OSError):
         words = (_PROCESSES / str(process.pid) / "cmdline").read_bytes()
     return f"{process.pid} {words.replace(bytes(1), b' ').decode(errors='replace')}"[:_LONGEST_NAME].strip()
+
+
+def _number(path: Path) -> int:
+    """Returns the inode of a file; -1 if there is none."""
+    try:
+        return path.stat().st_ino
+    except OSError:
+        return -1
 
 
 def _mapped(pids: Iterable[int]) -> set[Path]:

@@ -25,6 +25,14 @@ LEAKING = {
     """,
     "folder": "tempfile.mkdtemp(prefix='forgotten-')",
     "memory": "os.close(os.open('/dev/shm/' + os.environ['LEFT'], os.O_RDWR | os.O_CREAT)); keep()",
+    "reused": """
+        if hasattr(sys, "kept"):  # the memory of the test before is gone, and its name is another's now
+            sys.kept.close()
+            path = '/dev/shm/' + os.environ['LEFT']
+            os.rename(path, path + '_old')
+            os.close(os.open(path, os.O_RDWR | os.O_CREAT))
+            os.unlink(path + '_old')
+    """,
     "clean": f"""
         with tempfile.TemporaryDirectory(), subprocess.Popen({SLEEPER}) as process:
             process.kill()
@@ -69,7 +77,7 @@ def run(folder: Path, *names: str, options: tuple[str, ...] = ()) -> subprocess.
 def test_each_leak_fails_the_run_by_name(tmp_path: Path) -> None:
     left = Path(f"/dev/shm/left_{os.getpid()}")  # noqa: S108 - it is what is tested
     try:
-        with run(tmp_path, *LEAKING) as process:
+        with run(tmp_path, *(name for name in LEAKING if name != "reused")) as process:
             said, _ = process.communicate(timeout=DEADLINE_S)
         leaks = [line for line in said.splitlines() if line.startswith("ERROR")]
         processes = [line for line in leaks if "leaves a process behind" in line]
@@ -82,6 +90,17 @@ def test_each_leak_fails_the_run_by_name(tmp_path: Path) -> None:
         assert any("test_memory.py - leaves shared memory behind: " in line for line in leaks)
         assert len(leaks) == 4, said
         assert process.returncode == pytest.ExitCode.TESTS_FAILED
+    finally:
+        left.unlink(missing_ok=True)
+
+
+def test_a_name_that_another_uses_now_does_not_count(tmp_path: Path) -> None:
+    left = Path(f"/dev/shm/left_{os.getpid()}")  # noqa: S108 - as above
+    try:
+        with run(tmp_path, "memory", "reused") as process:
+            said, _ = process.communicate(timeout=DEADLINE_S)
+        assert left.exists()
+        assert process.returncode == 0, said
     finally:
         left.unlink(missing_ok=True)
 

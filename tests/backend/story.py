@@ -185,6 +185,7 @@ def _files(story, teacher, one):
     story.ask(teacher, "POST", f"{one}/changes", stale, status=409)
     overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
     story.ask(teacher, "POST", f"{one}/check", {"files": overlay})
+    story.ask(teacher, "POST", f"{one}/distribution", {"ros_distro": "lyrical", "files": []})
     tested = {"files": [{"path": "tests/main.test.yaml", "content": TESTS}]}
     story.ask(teacher, "POST", f"{one}/test", tested)
     story.ask(teacher, "POST", f"{one}/test-with-python", tested)

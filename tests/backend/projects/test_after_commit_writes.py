@@ -233,6 +233,7 @@ def test_every_route_that_writes_is_here_or_named():
         # These store nothing.
         "prepare_attach",
         "inspect_import",
+        "change_distribution",
         "check_project",
         "test_project",
         "test_with_python",

@@ -1,4 +1,4 @@
-"""The engine is a distribution of its own: one of another version is refused in a sentence."""
+"""The engine is a separate distribution; another version of it is refused with one sentence."""
 
 from __future__ import annotations
 

@@ -271,12 +271,8 @@ class Projects(ResourceViewSet):
         """
         asked = parsed(s.CheckSerializer, request.data)
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = checking.files_of(project)
-        typed = {
-            names.file_path(overlay["path"], field="files.path"): overlay["content"].encode()
-            for overlay in asked["files"]
-        }
-        files |= typed
+        typed = _typed(asked)
+        files = checking.files_of(project) | typed
         robots = checking.robots_of(project, typed)
         return checking.reported(self, request, Response({}), lambda: files, robots)
 
@@ -294,9 +290,7 @@ class Projects(ResourceViewSet):
         """
         asked = parsed(s.DistributionSerializer, request.data)
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = checking.files_of(project)
-        for overlay in asked["files"]:
-            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        files = checking.files_of(project) | _typed(asked)
         return checking.answered(
             *(self, request, "changed_distribution", Response), files=files, ros_distro=asked["ros_distro"]
         )
@@ -315,9 +309,7 @@ class Projects(ResourceViewSet):
         """
         asked = parsed(s.CheckSerializer, request.data)
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = checking.files_of(project)
-        for overlay in asked["files"]:
-            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        files = checking.files_of(project) | _typed(asked)
         return checking.tested(self, request, files, Response, with_job=False)
 
     @extend_schema(
@@ -335,6 +327,14 @@ class Projects(ResourceViewSet):
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
         return bundles.answer_with_app(self, request, project, universe)
+
+
+def _typed(asked: Mapping[str, Any]) -> dict[str, bytes]:
+    """Returns the unsaved files of a request."""
+    return {
+        names.file_path(overlay["path"], field="files.path"): overlay["content"].encode()
+        for overlay in asked["files"]
+    }
 
 
 class InspectAction(APIView):
